@@ -179,15 +179,24 @@ void Kernel::begin() {
     const std::span<const world::CommandT> commands = next.tick.commands;
     const std::uint64_t tick = next.tick.index;
     walkers::OnFoot on_foot;
-    const auto drive = [&] { parts.background.advance(last, next); };
     const auto walk = [&] {
         on_foot = parts.pedestrians.advance(last, commands);
         parts.roster.decide(last, tick);
     };
+    const auto drive = [&](const traffic::Background::Both& both) {
+        parts.background.advance(last, next, both);
+    };
     if (parts.pedestrians.are_many()) {
-        parts.side_thread.both(drive, walk);
+        parts.side_thread.both([&] { drive(traffic::Background::in_turn); }, walk);
+    } else if (parts.background.are_many()) {
+        drive([&](const auto& here, const auto& elsewhere) {
+            parts.side_thread.both(here, [&] {
+                elsewhere();
+                walk();
+            });
+        });
     } else {
-        drive();
+        drive(traffic::Background::in_turn);
         walk();
     }
     look_ahead(next.tick.index + 1);
@@ -198,9 +207,9 @@ void Kernel::begin() {
     parts.next = std::move(next);
 }
 
-/// Traffic's cars are as they are until they make their next step: what that needs of them another
-/// processor works out while this one makes the other stages. Where nobody walks its thread would
-/// have to be woken for this alone, which costs a processor more than it saves the other one.
+/// Traffic's cars are as they are until they make their next step: whom they meet then another
+/// processor works out while this one makes the other stages. Where nobody walks it does so while
+/// SUMO makes its step: there its thread would have to be woken for this alone once more.
 void Kernel::look_ahead(std::uint64_t tick) {
     Parts& parts = *parts_;
     if (!parts.pedestrians.are_many() || !parts.background.are_many())

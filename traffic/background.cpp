@@ -214,7 +214,7 @@ Background::Background(const world::EpisodeT& episode,
 
 Background::~Background() = default;
 
-void Background::advance(const world::TickView& last, world::TickDraft& next) {
+void Background::advance(const world::TickView& last, world::TickDraft& next, const Both& both) {
     Parts& parts = *parts_;
 
     const std::vector<std::uint32_t> wrecks = parts.hand_over(last);
@@ -244,7 +244,8 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.signal_orders.follow(next.tick.index);
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);
 
-    libsumo::Simulation::step();
+    both([] { libsumo::Simulation::step(); },
+         [&] { parts.lookout.meet(parts.cars, next.tick.index); });
 
     // What came of it.
     parts.drop_arrived(next);

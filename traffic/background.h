@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string_view>
 
@@ -26,12 +27,23 @@ class Background {
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
 
+    using Work = std::function<void()>;
+
+    /// Does two things of which neither needs anything of the other, in whatever order, or at once.
+    using Both = std::function<void(const Work& here, const Work& elsewhere)>;
+
+    static void in_turn(const Work& here, const Work& elsewhere) {
+        here();
+        elsewhere();
+    }
+
     /// Stage 3. Mirrors the physics vehicles of the last tick into SUMO, carries out next's
     /// commands for cars that traffic drives (spawn, despawn, set_speed, free_speed, change_lane,
     /// set_route, follow, teleport, set_velocity), makes one SUMO step, and writes
     /// next.traffic.cars (sorted by id, parked ones among them), next.tick.signals, and
-    /// spawned/despawned events. Keeps the number of background cars.
-    void advance(const world::TickView& last, world::TickDraft& next);
+    /// spawned/despawned events. Keeps the number of background cars. `both` is called once, for
+    /// SUMO's step and for what can be done elsewhere meanwhile.
+    void advance(const world::TickView& last, world::TickDraft& next, const Both& both);
 
     /// Works out beforehand what the next advance, which makes `tick`, will need, if nothing
     /// happens to the cars until then. Changes nothing that can be asked here: for another thread,
@@ -39,7 +51,7 @@ class Background {
     /// of it.
     void look_ahead(std::uint64_t tick);
 
-    /// Are there enough cars that looking ahead in a thread of its own pays?
+    /// Are there enough cars that a thread of its own pays?
     bool are_many() const;
 
     /// Of all that this keeps: every car unrounded, with its route, trail and orders; the signals;

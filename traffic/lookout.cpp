@@ -221,10 +221,7 @@ void Lookout::look(const world::TickView& last, const Cars& cars) {
 
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
     stand_ins_.advance(obstructions_.all(), cars, tick);
-    if (Meetings::looks_in(tick))
-        meetings_.look(cars, tick);
-    else
-        meetings_.keep(cars);
+    meetings_.keep(cars);
     for (std::size_t i = 0; i < cars.size(); ++i) {
         Car& car = cars[i];
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||

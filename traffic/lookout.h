@@ -62,6 +62,13 @@ class Lookout {
     /// Before SUMO's step, behind the orders.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
 
+    /// Behind all of that, also while SUMO makes its step, in another thread: who meets whom from
+    /// where they are now, for the ticks to come.
+    void meet(Cars& cars, std::uint64_t tick) {
+        if (Meetings::looks_in(tick))
+            meetings_.look(cars, tick);
+    }
+
     /// Behind SUMO's step: what can be told of the next tick already. Changes nothing that can be
     /// asked here, as Meetings::look_ahead.
     void look_ahead(const Cars& cars, std::uint64_t tick) {

@@ -100,7 +100,7 @@ void sumo_alone(const world::Recording& recording, Run& run) {
     for (int i = 1; i <= warm_up; ++i) {
         world::TickDraft next;
         next.tick.index = static_cast<std::uint64_t>(i);
-        background.advance(last.view(), next);
+        background.advance(last.view(), next, traffic::Background::in_turn);
         last = world::seal(next, {});
     }
     run.bare_cars = 0;

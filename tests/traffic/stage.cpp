@@ -24,7 +24,7 @@ const world::TickDraft& Stage::step(const std::vector<world::CommandT>& commands
     draft_ = {};
     draft_.tick.index = index;
     draft_.tick.commands = commands;
-    background_->advance(last_.view(), draft_);
+    background_->advance(last_.view(), draft_, traffic::Background::in_turn);
     for (world::CarState& car : draft_.traffic.cars)
         if (std::find(beacons.begin(), beacons.end(), car.id()) != beacons.end())
             car.mutate_lamps(static_cast<std::uint16_t>(car.lamps() | world::lamp_beacon));

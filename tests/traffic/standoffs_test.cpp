@@ -209,7 +209,7 @@ test::Loaded unregulated_roads() {
 /// With as many cars as such a town can carry; of 60, more than fit, some seeds stand for ever.
 class Rings : public testing::TestWithParam<std::uint64_t> {};
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Rings, testing::Values(1, 3, 4, 7));
+INSTANTIATE_TEST_SUITE_P(Seeds, Rings, testing::Values(1, 2, 6, 7));
 
 TEST_P(Rings, OfThoseWhoStandInEachOthersWayAreDissolved) {
     constexpr int cars = 44;

@@ -139,6 +139,15 @@ bool GivingWay::has_to_wait(const Car& car, const Comer& comer, const Conflict& 
 double GivingWay::allowed_speed(const Car& car) const {
     if (comers_.empty() || car.speed > turns_at)
         return world::infinity;
+    // Of most cars nobody comes to where they will be, wherever their way leads.
+    constexpr double more = 10;  // [m] than its way and its body
+    const double far = looked_at + 2 * world::vehicle_models()[car.model].length + more;
+    world::Box around;
+    around.take(car.rear.head<2>(), far);
+    if (std::none_of(comers_.begin(), comers_.end(), [&](const Comer& comer) {
+            return world::touch(around, comer.area);
+        }))
+        return world::infinity;
     const world::Box area = area_ahead(car, *lines_, *graph_, looked_at);
     const bool is_long = world::vehicle_models()[car.model].length > longest_short_car;
     const auto is_near = [&](const Comer& comer) {

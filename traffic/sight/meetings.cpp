@@ -125,9 +125,9 @@ double Meetings::speed_before(const Car& car, const Hold& hold) const {
 }
 
 void Meetings::hold(const Driver& driver, const Stop& stop) {
-    found_.push_back({driver.car->id, stop.distance, stop.speed});
-    double& allowed = allowed_[static_cast<std::size_t>(&driver - drivers_.data())];
-    allowed = std::min(allowed, speed_before(*driver.car, found_.back()));
+    const auto index = static_cast<std::size_t>(&driver - drivers_.data());
+    found_.push_back({driver.car->id, static_cast<std::uint32_t>(index), stop.distance, stop.speed});
+    allowed_[index] = std::min(allowed_[index], speed_before(*driver.car, found_.back()));
 }
 
 /// Whom it waits for goes on, as far as there is room beside who waits.
@@ -341,13 +341,15 @@ bool Meetings::has_foreseen(std::span<const Car> cars, std::uint64_t tick) const
 }
 
 void Meetings::keep(const Cars& cars) {
-    allowed_.assign(cars.size(), world::infinity);
+    const auto all = cars.all();
+    allowed_.assign(all.size(), world::infinity);
     for (Hold& hold : kept_) {
-        const Car* car = cars.find(hold.id);
+        const bool is_there = hold.index < all.size() && all[hold.index].id == hold.id;
+        const Car* car = is_there ? &all[hold.index] : cars.find(hold.id);
         if (car == nullptr || !Driver::takes_part(*car))
             continue;
         hold.distance += (hold.speed - car->speed) * step_;
-        double& allowed = allowed_[static_cast<std::size_t>(car - cars.all().data())];
+        double& allowed = allowed_[static_cast<std::size_t>(car - all.data())];
         allowed = std::min(allowed, speed_before(*car, hold));
     }
 }

@@ -40,10 +40,11 @@ class Meetings {
              const RightOfWay& right_of_way,
              double step);
 
-    /// As the cars are now, in the tick being made.
+    /// As the cars are now, in the tick being made; for keep() in the next ones. Another thread may
+    /// do it while nobody else changes or asks anything of the cars or of this.
     void look(Cars& cars, std::uint64_t tick);
 
-    /// Every second tick is enough for who looks seconds ahead; in the others, keep().
+    /// Every second tick is enough for who looks seconds ahead.
     static bool looks_in(std::uint64_t tick) { return tick % 2 == 0; }
 
     /// Whoever is held back since the last look goes on with it, one tick later and further on.
@@ -70,8 +71,9 @@ class Meetings {
     /// Whom it holds back, and before what.
     struct Hold {
         std::uint32_t id = 0;
-        double distance = 0;  ///< [m] that its bumper may go on
-        double speed = 0;     ///< [m/s] of what is there, along its way
+        std::uint32_t index = 0;  ///< that it had when it was seen
+        double distance = 0;      ///< [m] that its bumper may go on
+        double speed = 0;         ///< [m/s] of what is there, along its way
     };
 
     /// Where one can stop before another's way.
