@@ -165,8 +165,9 @@ Foresight::Intrusion Foresight::deepest_in(const BodyBox& standing, double reach
     for (double s = 0; s <= reach; s += spacing) {
         const BodyBox body = way_.at(s);
         const double there = depth(body, standing);
+        const Eigen::Vector2d gap = standing.middle - body.middle;
         if (there > deepest.depth)
-            deepest = {there, world::cross(body.ahead, standing.middle - body.middle) > 0};
+            deepest = {there, world::cross(body.ahead, gap) > 0, body.ahead.dot(gap) < 0};
     }
     return deepest;
 }

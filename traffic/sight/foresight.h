@@ -51,8 +51,9 @@ class Foresight {
 
     /// How deep in another body, and on which side of its own that one is there.
     struct Intrusion {
-        double depth = 0;  ///< [m]; 0: beside it
-        bool is_left = false;
+        double depth = 0;      ///< [m]; 0: beside it
+        bool is_left = false;  ///< of the body's middle
+        bool is_behind = false;
     };
 
     /// Where its body would lie in that one deepest, within `reach` [m] of way.

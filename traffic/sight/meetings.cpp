@@ -126,7 +126,8 @@ double Meetings::speed_before(const Car& car, const Hold& hold) const {
 
 void Meetings::hold(const Driver& driver, const Stop& stop) {
     const auto index = static_cast<std::size_t>(&driver - drivers_.data());
-    found_.push_back({driver.car->id, static_cast<std::uint32_t>(index), stop.distance, stop.speed});
+    found_.push_back(
+        {driver.car->id, static_cast<std::uint32_t>(index), stop.distance, stop.speed});
     allowed_[index] = std::min(allowed_[index], speed_before(*driver.car, found_.back()));
 }
 

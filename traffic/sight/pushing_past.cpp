@@ -32,9 +32,10 @@ void PushingPast::begin(MetDriver& one, MetDriver& other, std::uint64_t tick) co
     driver.leans = lean_for(driver, least);
 }
 
-/// [m] left: out of the other one's body, as far as its lanes are wide.
+/// [m] left: out of the other one's body, as far as its lanes are wide. Not of who is beside its
+/// rear: as the nose goes aside the tail swings to the other side, and deeper in.
 double PushingPast::lean_for(const MetDriver& driver, const Foresight::Intrusion& intrusion) const {
-    if (intrusion.depth == 0)
+    if (intrusion.depth == 0 || intrusion.is_behind)
         return 0;
     double spare = world::infinity;  // [m] at each side
     for (const std::uint32_t lane : driver.seen->way().lanes())
