@@ -173,8 +173,21 @@ void Kernel::begin() {
     note_outcome(next);
     close(Stage::scenario, next);
 
-    // 2. and 3. traffic: background cars and signals; pedestrians. Neither reads what the other
-    // does in this tick, nor do the drivers, whose turn comes later.
+    // 2. and 3. traffic: background cars and signals; pedestrians
+    walkers::OnFoot on_foot = drive_and_walk(last, next);
+    look_ahead(next.tick.index + 1);
+    parts.lamps.light_cars(next);
+    close(Stage::traffic, next);
+    add(std::move(on_foot), next);
+    close(Stage::pedestrians, next);
+    parts.next = std::move(next);
+}
+
+/// Neither traffic nor those on foot read what the other does in this tick, nor do the drivers,
+/// whose turn comes later: a second processor makes what it can meanwhile. What is returned goes
+/// into the tick behind what traffic wrote there.
+walkers::OnFoot Kernel::drive_and_walk(const world::TickView& last, world::TickDraft& next) {
+    Parts& parts = *parts_;
     parts.side_thread.drop();
     const std::span<const world::CommandT> commands = next.tick.commands;
     const std::uint64_t tick = next.tick.index;
@@ -199,12 +212,7 @@ void Kernel::begin() {
         drive(traffic::Background::in_turn);
         walk();
     }
-    look_ahead(next.tick.index + 1);
-    parts.lamps.light_cars(next);
-    close(Stage::traffic, next);
-    add(std::move(on_foot), next);
-    close(Stage::pedestrians, next);
-    parts.next = std::move(next);
+    return on_foot;
 }
 
 /// Traffic's cars are as they are until they make their next step: whom they meet then another

@@ -9,6 +9,7 @@
 #include "kernel/drill/nudge.h"
 #include "kernel/physics/solid_ground.h"
 #include "kernel/stage.h"
+#include "walkers/on_foot.h"
 #include "world/check_result.h"
 #include "world/recording.h"
 #include "world/tick.h"
@@ -60,6 +61,7 @@ class Kernel {
 
   private:
     void begin();
+    walkers::OnFoot drive_and_walk(const world::TickView& last, world::TickDraft& next);
     void look_ahead(std::uint64_t tick);
     void take_branch(std::uint64_t tick);
     void note_outcome(world::TickDraft& next);
