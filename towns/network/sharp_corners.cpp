@@ -27,6 +27,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double sharp = -0.3;          ///< cosine of a turn at a joint that nobody drives
+constexpr double back = -0.866;         ///< cosine of one within a way that leads nowhere else
 constexpr double wide_enough = 0.5;     ///< cosine of what is left to turn at the curve's end
 constexpr double furthest = 8;          ///< [m] that is cut off a road
 constexpr double cut_step = 0.5;        ///< [m]
@@ -223,6 +224,41 @@ bool mend_start(DrawnWays& lanes, const DrawnWays::Way& way) {
     return true;
 }
 
+/// The first point within a line at which it turns back; 0: there is none.
+std::size_t corner_within(const DrawnLine& line) {
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        const Vector2d in = (line[i] - line[i - 1]).head<2>().normalized();
+        const Vector2d out = (line[i + 1] - line[i]).head<2>().normalized();
+        if (in.dot(out) <= back)
+            return i;
+    }
+    return 0;
+}
+
+/// The way goes out over the junction and comes back by a corner: it goes out as far as it needs
+/// to turn on an arc.
+bool mend_within(DrawnWays& lanes, const DrawnWays::Way& way) {
+    const DrawnLine line = lanes.at(way.via).line;
+    const std::size_t corner = corner_within(line);
+    if (way.last != way.via || corner == 0)
+        return false;
+    const DrawnLine out(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(corner) + 1);
+    const Vector2d onto = first_direction(lanes.at(way.to).line);
+    for (double driven = 0; driven < drawn_metres(out); driven += cut_step)
+        for (double radius = widest_swing; radius >= least_swing; radius -= 0.5) {
+            const Cut parts = cut_at(out, driven);
+            const auto swung =
+                swing(parts.off.back(), first_direction(parts.left), line.back(), radius);
+            if (!swung || -first_direction(reversed(*swung)).dot(onto) < wide_enough)
+                continue;
+            DrawnLine drawn = parts.off;
+            drawn.insert(drawn.end(), swung->begin() + 1, swung->end());
+            lanes.redraw(way.via, drawn);
+            return true;
+        }
+    return false;
+}
+
 }  // namespace
 
 std::size_t mend_sharp_corners(pugi::xml_node net) {
@@ -233,7 +269,8 @@ std::size_t mend_sharp_corners(pugi::xml_node net) {
             continue;
         const bool end = mend_end(lanes, way);
         const bool start = mend_start(lanes, way);
-        mended += end || start ? 1 : 0;
+        const bool within = mend_within(lanes, way);
+        mended += end || start || within ? 1 : 0;
     }
     return mended;
 }

@@ -105,6 +105,20 @@ TEST(SharpCorners, AWayOnWhichOneWaitsStaysOneOfTwoLanes) {
     EXPECT_EQ(corner.line(":i").back(), Eigen::Vector3d(2, 0, 0));
 }
 
+/// As where two roads leave a wide junction side by side.
+TEST(SharpCorners, AWayThatComesBackByACornerTurnsOnAnArc) {
+    Corner corner({.a = "-50,0 0,0",
+                   .i = "0,0 15,0 20,-1 15,-1 -1,-4",
+                   .j = "",
+                   .b = "-1,-4 -60,-20",
+                   .o = "5,20 -1,-4"});
+    EXPECT_EQ(corner.mended, 1U);
+    corner.expect_driven_through({"a", ":i", "b"});
+    EXPECT_EQ(corner.line("b").front(), Eigen::Vector3d(-1, -4, 0));
+    for (const Eigen::Vector3d& point : corner.line(":i"))
+        EXPECT_GT(point.y(), -14) << "no further aside than it needs";
+}
+
 TEST(SharpCorners, AWayThatLeavesItsRoadBackwardsSwingsOutOverTheJunction) {
     const Corner::Shapes left{
         .a = "-50,0 0,0", .i = "0,0 -20,24", .j = "", .b = "-20,24 -60,72", .o = "2,40 -20,24"};
