@@ -127,6 +127,7 @@ TEST_F(WarmProcess, GoesOnEquallyInAForkAndInItsParent) {
     for (const std::size_t tick : {1U, 27U, 28U, 60U, 119U}) {  // in tick 27 two vehicles touch
         while (chain.size() < tick)
             step(kernel, chain);
+        kernel.rest();
         const Chain forked = in_child([&] {
             Chain copy = chain;
             soil_the_heap();
