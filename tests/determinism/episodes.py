@@ -86,7 +86,9 @@ def plan(seed, known, emulated):
         taken = [group for group in ONE_OF if any(other.name.startswith(group) for other in chosen)]
         if each not in chosen and not any(each.name.startswith(group) for group in taken):
             chosen.append(each)
-    chosen.sort(key=lambda each: each.name != "empty_environment")  # or it would undo the others
+    # First what would undo the others; last what takes all words behind it as one, which may not be as long as a
+    # large environment.
+    chosen.sort(key=lambda each: (each.name != "empty_environment", each.name == "terminal"))
     if draw(seed, "emulated", 12) == 0:
         chosen = [draw_of(seed, "cpu", emulated)]  # slow, so not often; and nothing else
     return Plan(
