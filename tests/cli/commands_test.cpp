@@ -346,6 +346,29 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
     EXPECT_THAT(info.out, HasSubstr("ego since "));
 }
 
+TEST(Run, SaysWhoStandsAtTheEndOfItsRoad) {
+    const Folder folder;
+    write_file(folder / "nodes.xml",
+               R"(<nodes><node id="a" x="0" y="0"/><node id="b" x="200" y="0"/></nodes>)");
+    write_file(folder / "edges.xml", R"(<edges><edge id="out" from="a" to="b"/></edges>)");
+    const std::string net = folder / "one.net.xml";
+    const Result made = run_program(
+        "netconvert", {"-n", folder / "nodes.xml", "-e", folder / "edges.xml", "-o", net});
+    ASSERT_EQ(made.code, 0) << made.out;
+    write_file(folder / "mine.lua",
+               R"(return scenario 'mine' { town = 'town1', cars = 0, duration = 40,
+        run = function()
+            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = 'out_0', s = 50 }
+            wait(100)
+        end })");
+    const Result run =
+        reprise({"run", folder / "mine.lua", "--town", net, "-o", folder / "t.mcap"});
+    EXPECT_EQ(run.code, 0) << run.out;
+    const std::string said = "ego stands at the end of its road: out_0 leads nowhere";
+    EXPECT_THAT(run.out, HasSubstr(said));
+    EXPECT_EQ(run.out.find(said), run.out.rfind(said)) << "once";
+}
+
 TEST(Programs, TheThinOneLoadsNeitherSumoNorOpenCv) {
     const Result ldd = run_program("ldd", {REPRISE_PROGRAM});
     ASSERT_EQ(ldd.code, 0) << ldd.out;
