@@ -1,6 +1,7 @@
 // Private to the room, and to others' formats in MCAP through TraceFile.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -21,8 +22,14 @@ struct PendingChunk {
         std::uint64_t offset;  ///< of the record in `records`
     };
 
+    /// Room for 250 cars: where memory is handed out in huge pages, to double it in the middle of
+    /// a drive may take 5 ms.
+    static constexpr std::size_t usual_size = std::size_t{2} << 20U;  // [bytes]
+
     mcap::Bytes records;
     std::vector<Message> messages;
+
+    PendingChunk() { records.reserve(usual_size); }
 
     void add(std::uint16_t channel, std::uint64_t tick, std::uint64_t log_time, mcap::View data);
 
