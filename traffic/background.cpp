@@ -251,7 +251,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next, co
     parts.drop_arrived(next);
     parts.reader.read(parts.cars, next.tick.index);
     parts.signals.read(next);
-    parts.reader.write(parts.cars, next);
+    parts.reader.write(parts.cars, last, next);
 }
 
 void Background::look_ahead(std::uint64_t tick) {

@@ -14,7 +14,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/roads/even_yaw.h"
-#include "traffic/vehicle_lookup.h"
+#include "traffic/cars/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -302,7 +302,9 @@ void CarReader::read(Cars& cars, std::uint64_t tick) const {
     }
 }
 
-void CarReader::write(const Cars& cars, world::TickDraft& next) const {
+void CarReader::write(const Cars& cars,
+                      const world::TickView& last,
+                      world::TickDraft& next) const {
     constexpr double per_metre = 1024;
     constexpr double per_radian = 8192;
     constexpr double per_acceleration = 64;  // a lamp and a plot need no more
@@ -312,6 +314,8 @@ void CarReader::write(const Cars& cars, world::TickDraft& next) const {
     looks.clear();
     out.reserve(cars.size());
     looks.reserve(cars.size());
+    const std::span<const world::Look> drawn = last.car_looks();  // by id, too
+    auto look = drawn.begin();
     for (const Car& car : cars.all()) {
         double lane_s = 0;
         if (car.lane != none)
@@ -332,7 +336,10 @@ void CarReader::write(const Cars& cars, world::TickDraft& next) const {
                          car.model,
                          car.lamps,
                          static_cast<float>(rounded(car.acceleration, per_acceleration)));
-        looks.push_back(world::drawn_look(seed_, car.id));
+        while (look != drawn.end() && look->actor() < car.id)
+            ++look;
+        const bool is_known = look != drawn.end() && look->actor() == car.id;
+        looks.push_back(is_known ? *look : world::drawn_look(seed_, car.id));
     }
 }
 

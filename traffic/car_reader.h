@@ -22,7 +22,7 @@ class CarReader {
     void read(Cars& cars, std::uint64_t tick) const;
 
     /// next.traffic.cars and their looks, on the record's grid.
-    void write(const Cars& cars, world::TickDraft& next) const;
+    void write(const Cars& cars, const world::TickView& last, world::TickDraft& next) const;
 
   private:
     /// What is asked of a lane in every tick, side by side.

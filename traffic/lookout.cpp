@@ -8,6 +8,7 @@
 #include "traffic/cars/fleet.h"
 #include "traffic/sight/braking.h"
 #include "traffic/sight/way_ahead.h"
+#include "traffic/cars/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -227,6 +228,7 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
+        const KnownVehicle known(car.sumo, car.in_sumo);
         if (car.pass && car.pass->joins)
             PullingOut::follow(car);
         else if (car.pass)

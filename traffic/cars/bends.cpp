@@ -7,6 +7,7 @@
 
 #include "traffic/cars/fleet.h"
 #include "traffic/roads/car_network.h"
+#include "traffic/cars/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/units.h"
 
@@ -200,6 +201,7 @@ void Bends::follow(Cars& cars) const {
             limit = 0;
         if (limit == car.bend_limit || (limit != 0 && std::abs(limit - car.bend_limit) < visible))
             continue;
+        const KnownVehicle known(car.sumo, car.in_sumo);
         libsumo::Vehicle::setMaxSpeed(car.sumo, limit == 0 ? top : limit);
         car.bend_limit = limit;
     }

@@ -124,18 +124,16 @@ void Cars::hand_over(std::size_t index) {
     cars_.erase(cars_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-/// Gathered first: a digest of many small pieces costs more than of few large ones.
 void Cars::add_to(world::Hasher& hasher) const {
-    std::vector<CarDigest> kept;
-    kept.reserve(cars_.size());
-    std::vector<std::uint32_t> routes;
-    routes.reserve(cars_.size() * 24);
+    hasher.add(std::uint64_t{cars_.size()});
+    std::uint64_t edges = 0;
     for (const Car& car : cars_) {
-        kept.push_back(kept_of(car));
-        routes.insert(routes.end(), car.route.begin(), car.route.end());
+        hasher.add(kept_of(car));
+        edges += car.route.size();
     }
-    hasher.add(std::span<const CarDigest>(kept));
-    hasher.add(std::span<const std::uint32_t>(routes));
+    hasher.add(edges);
+    for (const Car& car : cars_)
+        hasher.add_bytes(car.route.data(), car.route.size() * sizeof(car.route[0]));
     for (const Car& car : cars_) {
         if (car.speed_order) {
             hasher.add(car.speed_order->from);

@@ -2,6 +2,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/cars/vehicle_lookup.h"
 #include "world/units.h"
 
 namespace reprise::traffic {
@@ -51,6 +52,7 @@ void Decisions::follow(Cars& cars) const {
         const std::uint32_t skips = may_skip(car);
         if (skips == car.skips)
             continue;
+        const KnownVehicle known(car.sumo, car.in_sumo);
         libsumo::Vehicle::setActionStepLength(car.sumo, (skips + 1) * step_, at_once);
         car.skips = skips;
     }

@@ -71,13 +71,15 @@ GivingWay::Comer GivingWay::comer_of(const world::VehicleState& vehicle) {
     const auto turned = [&turn](const Eigen::Vector2d& v) {
         return Eigen::Vector2d(turn.x() * v + turn.y() * world::turned_left(v));
     };
-    for (BodyBox& there : comer.bodies) {
-        there = body;
-        comer.area.take(body.middle, body.half_length + body.half_width);
+    for (std::size_t i = 0; i < moments; ++i) {
+        comer.bodies[i] = body;
+        comer.areas[i / in_stretch].take(body.middle, body.half_length + body.half_width);
         body.middle += step;
         step = turned(step);
         body.ahead = turned(body.ahead);
     }
+    for (const world::Box& area : comer.areas)
+        comer.area.take(area);
     return comer;
 }
 
@@ -100,8 +102,14 @@ GivingWay::Conflict GivingWay::conflict_of(const WayAhead& way, const Comer& com
     const double end = std::min(looked_at, way.length());
     for (double driven = spacing; driven <= end; driven += spacing) {
         const BodyBox body = way.at(driven);
+        world::Box around;
+        around.take(body.middle, body.half_length + body.half_width);
         bool is_met = false;
         for (std::size_t i = 0; i < moments; ++i) {
+            if (i % in_stretch == 0 && !world::touch(around, comer.areas[i / in_stretch])) {
+                i += in_stretch - 1;  // nowhere near in any of these moments
+                continue;
+            }
             const BodyBox& there = comer.bodies[i];
             if (!overlap(body, there) ||
                 (!conflict.is_any && body.ahead.dot(there.ahead) > same_way))

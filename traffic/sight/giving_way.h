@@ -39,11 +39,14 @@ class GivingWay {
   private:
     static constexpr std::size_t moments = 31;
     static constexpr double moment = 0.13;  ///< [s] between two of them
+    static constexpr std::size_t in_stretch = 8;
+    static constexpr std::size_t stretches = (moments + in_stretch - 1) / in_stretch;
 
     /// One that comes, and where its body will be.
     struct Comer {
         std::array<BodyBox, moments> bodies;
-        world::Box area;  ///< around all of them
+        std::array<world::Box, stretches> areas;  ///< around each eight of them,
+        world::Box area;                          ///< and around all
         double z = 0;
         double speed = 0;    ///< [m/s]
         double braking = 0;  ///< [m/s^2] that it does now

@@ -6,6 +6,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
+#include "traffic/cars/vehicle_lookup.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {
@@ -110,6 +111,7 @@ void LaneChangePace::follow(Cars& cars,
         // It was given its pace, and changes no lanes besides.
         if (car.pass && car.pass->joins)
             continue;
+        const KnownVehicle known(car.sumo, car.in_sumo);
         const world::LaneT& lane = town_->lanes[car.lane];
         // A quarter of the cars is asked in each tick.
         if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0) {

@@ -5,7 +5,7 @@
 // How it goes: by the one name that is known, which is told apart by where it lies in memory, the
 //   vehicle that was found for it before. Else libsumo's own.
 // What it keeps: the name that is known, and where its vehicle is kept.
-#include "traffic/vehicle_lookup.h"
+#include "traffic/cars/vehicle_lookup.h"
 
 #include <dlfcn.h>
 #include <string>
