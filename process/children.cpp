@@ -11,7 +11,6 @@
 #include <csignal>
 #include <cstring>
 #include <map>
-#include <sched.h>
 #include <string>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -130,14 +129,6 @@ class Alive {
 };
 
 }  // namespace
-
-std::size_t processors() {
-    cpu_set_t mine;
-    CPU_ZERO(&mine);
-    return sched_getaffinity(0, sizeof(mine), &mine) == 0
-               ? static_cast<std::size_t>(std::max(1, CPU_COUNT(&mine)))
-               : 1;
-}
 
 Children::Children(std::size_t at_once) : at_once_(std::max<std::size_t>(at_once, 1)) {}
 

@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "process/held_signals.h"
+#include "process/processors.h"
 
 namespace reprise::process {
-
-/// As many as may run at once for this process.
-std::size_t processors();
 
 /// How a child ended.
 struct Ended {

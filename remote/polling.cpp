@@ -5,6 +5,8 @@
 #include <sched.h>
 #include <utility>
 
+#include "process/processors.h"
+
 namespace reprise::remote {
 
 namespace {
@@ -20,13 +22,6 @@ constexpr unsigned shortest_pause = 16;
 constexpr unsigned most_doublings = 6;
 constexpr unsigned long_calm = 64;
 
-/// Where there is one only, whom we wait for could not run while we look.
-bool has_several_processors() {
-    cpu_set_t allowed;
-    CPU_ZERO(&allowed);
-    return sched_getaffinity(0, sizeof(allowed), &allowed) != 0 || CPU_COUNT(&allowed) > 1;
-}
-
 double seconds_of(clockid_t clock) {
     timespec time{};
     clock_gettime(clock, &time);
@@ -41,7 +36,7 @@ Polling::Clocks Polling::Clocks::real() {
 }
 
 Polling::Polling(double longest, Clocks clocks)
-    : longest_(longest > 0 && has_several_processors() ? longest : 0),
+    : longest_(longest > 0 && process::processors() > 1 ? longest : 0),
       clocks_(std::move(clocks)) {}
 
 bool Polling::finds(const std::function<bool()>& there) {

@@ -20,7 +20,7 @@ class Polling {
         static Clocks real();
     };
 
-    /// `longest`: [s] of a wait; 0: sleeps at once, as where we may use one processor only.
+    /// `longest`: [s] of a wait; 0: sleeps at once, as where one processor is ours only.
     explicit Polling(double longest = 0, Clocks clocks = Clocks::real());
 
     /// Looks until `there` says so, or too much time has gone by; then the next 2 waits are not

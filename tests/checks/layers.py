@@ -27,7 +27,7 @@ ROOMS = {
     "replay": "world files",
     "exchange": "world files replay",
     "render": "world files ground",
-    "kernel": "world ground walkers scripting traffic drivers replay",
+    "kernel": "world process ground walkers scripting traffic drivers replay",
     "wheel": "world remote",
     "cli": "world files process ground walkers towns scripting traffic drivers remote replay exchange render kernel wheel",
 }

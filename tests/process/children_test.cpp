@@ -3,7 +3,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <sched.h>
 #include <sys/wait.h>
 
 #include <gmock/gmock.h>
@@ -111,20 +110,6 @@ TEST_F(ChildProcesses, LeaveOtherChildrenToWhoStartedThem) {
     int status = 0;
     EXPECT_EQ(waitpid(other, &status, 0), other);
     EXPECT_EQ(WEXITSTATUS(status), 7);
-}
-
-TEST_F(ChildProcesses, ByThemselvesAreAsManyAsWeMayUseProcessors) {
-    cpu_set_t before;
-    ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
-    EXPECT_EQ(processors(), static_cast<std::size_t>(CPU_COUNT(&before)));
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
-        if (CPU_ISSET(cpu, &before))
-            CPU_SET(cpu, &one);
-    ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
-    EXPECT_EQ(processors(), 1U);
-    ASSERT_EQ(sched_setaffinity(0, sizeof(before), &before), 0);
 }
 
 }  // namespace
