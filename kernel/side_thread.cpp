@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "process/linger.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
 
@@ -61,24 +62,13 @@ void SideThread::run() {
         if (state != State::offered) {
             state_.wait(state);
         } else if (state_.compare_exchange_strong(state, State::taken)) {
-            const bool lingers = more_follows_;
             work();
             tell(State::done);
-            if (lingers)
-                linger();
+            process::linger(1e-3, [this] {
+                const State now = state_.load(std::memory_order_relaxed);
+                return now != State::done && now != State::idle;
+            });
         }
-    }
-}
-
-/// Awake until there is work again, for about a hundred microseconds: to wake somebody takes
-/// tens of them, from the one who does. Whoever else wants the processor gets it.
-void SideThread::linger() const {
-    constexpr int times = 200;
-    for (int i = 0; i < times; ++i) {
-        const State state = state_.load(std::memory_order_relaxed);
-        if (state != State::done && state != State::idle)
-            return;
-        std::this_thread::yield();
     }
 }
 
@@ -115,7 +105,6 @@ bool SideThread::take_back() {
 void SideThread::both(const std::function<void()>& here, const std::function<void()>& there) {
     drop();
     there_ = &there;
-    more_follows_ = false;
     offer_it();
     std::exception_ptr error_here;
     try {
@@ -136,7 +125,6 @@ void SideThread::offer(std::function<void()> there) {
     drop();
     offered_ = std::move(there);
     there_ = &offered_;
-    more_follows_ = true;
     offer_it();
 }
 

@@ -8,7 +8,9 @@
 namespace reprise::kernel {
 
 /// A second thread, for work that needs nothing of what the first one does meanwhile. What comes
-/// out is the same with and without it: it decides when something is done, never what.
+/// out is the same with and without it: it decides when something is done, never what. Behind its
+/// work it stays awake for a millisecond, where nobody else wants the processor: a tick needs it
+/// again long before, and to be woken costs more than much of what it is given.
 class SideThread {
   public:
     SideThread() = default;
@@ -19,11 +21,10 @@ class SideThread {
     /// Does `here` in this thread and `there` in the other one, or behind `here` in this one as
     /// well: where there is one processor only, no more threads are to be had, or the other one has
     /// not begun by then. Returns when both are done; throws what `here` threw, then what `there`
-    /// did. 10 us more than the longer of the two.
+    /// did. 10 us more than the longer of the two, where the other one sleeps.
     void both(const std::function<void()>& here, const std::function<void()>& there);
 
-    /// Does `there` in the other thread while this one goes on, until drop(). Both() is to follow
-    /// soon: until then the other thread stays awake.
+    /// Does `there` in the other thread while this one goes on, until drop().
     void offer(std::function<void()> there);
 
     /// Returns once what was offered is done, or will never be: where the other thread has not
@@ -41,14 +42,12 @@ class SideThread {
     void run();
     void offer_it();
     bool take_back();
-    void linger() const;
     void work() noexcept;
     void tell(State state);
 
     std::atomic<State> state_ = State::idle;
     const std::function<void()>* there_ = nullptr;
     std::function<void()> offered_;
-    bool more_follows_ = false;
     std::exception_ptr error_;
     std::thread thread_;
     bool tried_ = false;  ///< to start it
