@@ -32,7 +32,7 @@ using namespace reprise;
 
 constexpr int warm_up = 200;  // ticks until queues have formed
 constexpr int measured = 400;
-constexpr double near_distance = 60;  // [m] as far as physics keeps bodies
+constexpr double near_distance = 35;  // [m] as far as physics keeps bodies
 
 bench::Timer* sumo_watch = nullptr;  // while a run is measured
 bench::Timer* tell_watch = nullptr;

@@ -24,7 +24,7 @@ using namespace reprise;
 constexpr int rounds = 3;     // whole, bare, whole, bare, ...: the machine's mood hits both
 constexpr int warm_up = 200;  // ticks until queues have formed
 constexpr int measured = 400;
-constexpr double near_distance = 60;  // [m] as far as physics keeps bodies
+constexpr double near_distance = 35;  // [m] as far as physics keeps bodies
 
 using bench::Timer;
 Timer* sumo_watch = nullptr;  // while a run is measured
