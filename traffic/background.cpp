@@ -99,6 +99,7 @@ struct Background::Parts {
     std::vector<world::VehicleState> place(std::uint64_t tick);
     std::vector<std::uint32_t> hand_over(const world::TickView& last);
     void drop_arrived(world::TickDraft& next);
+    std::uint64_t digest_of_kept() const;
 
     SumoProcess process;
     RoadGraph graph;
@@ -124,6 +125,7 @@ struct Background::Parts {
     SignalPrograms signals;
     Cars cars;
     std::uint64_t step_ns;
+    std::uint64_t kept = 0;  ///< the digest of all that is kept, before SUMO's last step
 };
 
 /// The scenario's commands for cars that traffic owns.
@@ -245,7 +247,10 @@ void Background::advance(const world::TickView& last, world::TickDraft& next, co
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);
 
     both([] { libsumo::Simulation::step(); },
-         [&] { parts.lookout.meet(parts.cars, next.tick.index); });
+         [&] {
+             parts.kept = parts.digest_of_kept();
+             parts.lookout.meet(parts.cars, next.tick.index);
+         });
 
     // What came of it.
     parts.drop_arrived(next);
@@ -263,15 +268,23 @@ bool Background::are_many() const {
     return parts_->cars.size() >= many;
 }
 
+/// 10 us with 100 cars, while SUMO makes its step.
+std::uint64_t Background::Parts::digest_of_kept() const {
+    world::Hasher hasher;
+    cars.add_to(hasher);
+    demand.add_to(hasher);
+    signals.add_to(hasher);
+    signal_orders.add_to(hasher);
+    mirrors.add_to(hasher);
+    lookout.add_to(hasher);
+    rescue_lane.add_to(hasher);
+    return hasher.digest64();
+}
+
 std::uint64_t Background::digest() const {
     world::Hasher hasher;
-    parts_->cars.add_to(hasher);
-    parts_->demand.add_to(hasher);
-    parts_->signals.add_to(hasher);
-    parts_->signal_orders.add_to(hasher);
-    parts_->mirrors.add_to(hasher);
-    parts_->lookout.add_to(hasher);
-    parts_->rescue_lane.add_to(hasher);
+    hasher.add(parts_->kept);
+    parts_->cars.add_motions_to(hasher);
     return hasher.digest64();
 }
 

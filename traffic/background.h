@@ -55,8 +55,10 @@ class Background {
     bool are_many() const;
 
     /// Of all that this keeps: every car unrounded, with its route, trail and orders; the signals;
-    /// the mirrors. SUMO's own memory cannot be read: what it holds (its drivers' random streams,
-    /// say) shows in the cars and signals, in the tick in which it first matters.
+    /// the mirrors; as of before SUMO's step of the last tick. And of what that step made of the
+    /// cars, unrounded: whatever else is kept behind it follows from these two. SUMO's own memory
+    /// cannot be read: what it holds (its drivers' random streams, say) shows in the cars and
+    /// signals, in the tick in which it first matters.
     std::uint64_t digest() const;
 
   private:

@@ -1,8 +1,13 @@
 
+#include <functional>
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "traffic/cars/cars.h"
 #include "traffic/cars/trail.h"
 #include "traffic/roads/road_graph.h"
 #include "world/models/catalogue.h"
@@ -102,6 +107,29 @@ TEST(TrafficDigest, KnowsTheWayThatIsExpectedOfAPhysicsVehicle) {
         return after(stage);
     };
     expect_only_digests_differ(with_lamps(world::lamp_left), with_lamps(0));
+}
+
+/// In the tick whose step moved it, not in the next one.
+TEST(CarsDigest, KnowsHowEachCarMovedToTheLastBit) {
+    const auto digest = [](const std::function<void(Car&)>& change) {
+        world::TickDraft next;
+        Cars cars;
+        change(cars.add({}, "", 0, next));
+        world::Hasher hasher;
+        cars.add_motions_to(hasher);
+        return hasher.digest64();
+    };
+    const std::uint64_t still = digest([](Car&) {});
+    EXPECT_EQ(still, digest([](Car&) {}));
+    constexpr double bit = 1e-300;
+    const std::map<std::string, std::function<void(Car&)>> changes{
+        {"bumper", [](Car& car) { car.sumo_front.z() = bit; }},
+        {"axle", [](Car& car) { car.rear.x() = bit; }},
+        {"yaw", [](Car& car) { car.yaw = bit; }},
+        {"speed", [](Car& car) { car.speed = bit; }},
+        {"place on its lane", [](Car& car) { car.lane_position = bit; }}};
+    for (const auto& [what, change] : changes)
+        EXPECT_NE(still, digest(change)) << what;
 }
 
 /// Two bumpers in one place whose cars came there by different ways: the rear axles will differ.

@@ -124,6 +124,19 @@ void Cars::hand_over(std::size_t index) {
     cars_.erase(cars_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
+void Cars::add_motions_to(world::Hasher& hasher) const {
+    for (const Car& car : cars_)
+        hasher.add(std::array{car.sumo_front.x(),
+                              car.sumo_front.y(),
+                              car.sumo_front.z(),
+                              car.rear.x(),
+                              car.rear.y(),
+                              car.rear.z(),
+                              car.yaw,
+                              car.speed,
+                              car.lane_position});
+}
+
 void Cars::add_to(world::Hasher& hasher) const {
     hasher.add(std::uint64_t{cars_.size()});
     std::uint64_t edges = 0;

@@ -41,6 +41,9 @@ class Cars {
     /// All that decides what the cars do next: their motion, trails, routes and orders.
     void add_to(world::Hasher& hasher) const;
 
+    /// What SUMO's step makes of them: their motion, unrounded. 10 ns a car.
+    void add_motions_to(world::Hasher& hasher) const;
+
   private:
     std::vector<Car> cars_;
 };
