@@ -202,10 +202,12 @@ walkers::OnFoot Kernel::drive_and_walk(const world::TickView& last, world::TickD
     if (parts.pedestrians.are_many()) {
         parts.side_thread.both([&] { drive(traffic::Background::in_turn); }, walk);
     } else if (parts.background.are_many()) {
+        bool walked = false;
         drive([&](const auto& here, const auto& elsewhere) {
             parts.side_thread.both(here, [&] {
                 elsewhere();
-                walk();
+                if (!std::exchange(walked, true))  // behind the first
+                    walk();
             });
         });
     } else {

@@ -34,10 +34,9 @@ std::optional<double> quotient_of(const fs::path& quota_path, const fs::path& pe
 /// Of one group, whichever version it is of.
 double granted_by(const fs::path& group) {
     const auto granted = quotient_in(group / "cpu.max");
-    return granted
-               ? *granted
-               : quotient_of(group / "cpu.cfs_quota_us", group / "cpu.cfs_period_us")
-                     .value_or(world::infinity);
+    return granted ? *granted
+                   : quotient_of(group / "cpu.cfs_quota_us", group / "cpu.cfs_period_us")
+                         .value_or(world::infinity);
 }
 
 /// The least of a group and those above it.

@@ -254,7 +254,9 @@ void Background::advance(const world::TickView& last, world::TickDraft& next, co
 
     // What came of it.
     parts.drop_arrived(next);
-    parts.reader.read(parts.cars, next.tick.index);
+    const std::span<Car> cars = parts.cars.all();
+    both([&] { parts.reader.read(cars.first(cars.size() / 2), next.tick.index); },
+         [&] { parts.reader.read(cars.subspan(cars.size() / 2), next.tick.index); });
     parts.signals.read(next);
     parts.reader.write(parts.cars, last, next);
 }

@@ -41,8 +41,9 @@ class Background {
     /// commands for cars that traffic drives (spawn, despawn, set_speed, free_speed, change_lane,
     /// set_route, follow, teleport, set_velocity), makes one SUMO step, and writes
     /// next.traffic.cars (sorted by id, parked ones among them), next.tick.signals, and
-    /// spawned/despawned events. Keeps the number of background cars. `both` is called once, for
-    /// SUMO's step and for what can be done elsewhere meanwhile.
+    /// spawned/despawned events. Keeps the number of background cars. `both` is called
+    /// twice: for SUMO's step and what can be done elsewhere meanwhile, and for the two halves of
+    /// what came of it.
     void advance(const world::TickView& last, world::TickDraft& next, const Both& both);
 
     /// Works out beforehand what the next advance, which makes `tick`, will need, if nothing

@@ -13,8 +13,8 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/roads/even_yaw.h"
 #include "traffic/cars/vehicle_lookup.h"
+#include "traffic/roads/even_yaw.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -293,8 +293,8 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
     move_body(car);
 }
 
-void CarReader::read(Cars& cars, std::uint64_t tick) const {
-    for (Car& car : cars.all()) {
+void CarReader::read(std::span<Car> cars, std::uint64_t tick) const {
+    for (Car& car : cars) {
         if (car.origin == Origin::parked || car.sumo.empty())
             continue;
         const KnownVehicle known(car.sumo, car.in_sumo);
@@ -302,9 +302,7 @@ void CarReader::read(Cars& cars, std::uint64_t tick) const {
     }
 }
 
-void CarReader::write(const Cars& cars,
-                      const world::TickView& last,
-                      world::TickDraft& next) const {
+void CarReader::write(const Cars& cars, const world::TickView& last, world::TickDraft& next) const {
     constexpr double per_metre = 1024;
     constexpr double per_radian = 8192;
     constexpr double per_acceleration = 64;  // a lamp and a plot need no more

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -18,8 +19,9 @@ class CarReader {
     /// `town` and `graph` must outlive this. `step` [s] of a tick; `seed` of the cars' looks.
     CarReader(const world::TownT& town, const RoadGraph& graph, double step, std::uint64_t seed);
 
-    /// What SUMO made of the cars in this tick.
-    void read(Cars& cars, std::uint64_t tick) const;
+    /// What SUMO made of these cars in this tick. Others may be read in another thread meanwhile:
+    /// of a vehicle SUMO's getters change nothing but what that one keeps.
+    void read(std::span<Car> cars, std::uint64_t tick) const;
 
     /// next.traffic.cars and their looks, on the record's grid.
     void write(const Cars& cars, const world::TickView& last, world::TickDraft& next) const;

@@ -6,9 +6,9 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
+#include "traffic/cars/vehicle_lookup.h"
 #include "traffic/sight/braking.h"
 #include "traffic/sight/way_ahead.h"
-#include "traffic/cars/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"

@@ -45,7 +45,8 @@ btTransform between(const btTransform& from, const btTransform& to, double share
 ///
 /// A box enters below 35 m and leaves above 45 m from the nearest vehicle (the gap keeps boxes from
 /// going in and out): of two buses no part is further than 9 m from where each is said to be, and
-/// nobody drives 5 m in a tick. Who is in is state: it depends on the past, so the digest covers it.
+/// nobody drives 5 m in a tick. Who is in is state: it depends on the past, so the digest covers
+/// it.
 class NearCars {
   public:
     static constexpr double enter_distance = 35;

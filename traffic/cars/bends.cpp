@@ -6,8 +6,8 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
-#include "traffic/roads/car_network.h"
 #include "traffic/cars/vehicle_lookup.h"
+#include "traffic/roads/car_network.h"
 #include "world/geometry2d.h"
 #include "world/units.h"
 

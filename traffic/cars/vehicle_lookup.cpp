@@ -4,7 +4,7 @@
 //   nothing but the time differs.
 // How it goes: by the one name that is known, which is told apart by where it lies in memory, the
 //   vehicle that was found for it before. Else libsumo's own.
-// What it keeps: the name that is known, and where its vehicle is kept.
+// What it keeps: for each thread the name that it knows, and where its vehicle is kept.
 #include "traffic/cars/vehicle_lookup.h"
 
 #include <dlfcn.h>
@@ -21,9 +21,8 @@ namespace {
 
 using Lookup = void* (*)(const std::string& name);
 
-// libsumo is a global of the process, and so are these.
-const std::string* known_name = nullptr;
-void** known_vehicle = nullptr;
+thread_local const std::string* known_name = nullptr;
+thread_local void** known_vehicle = nullptr;
 
 /// Throws libsumo's own exception where there is none of this name.
 void* look_up(const std::string& name) {
