@@ -130,12 +130,6 @@ std::span<const world::Control> inputs(replay::TraceReader& before, std::uint64_
     return before.recorded(tick).view.controls();
 }
 
-bool leads_nowhere(const world::TownT& town, const world::LaneT& lane) {
-    return std::none_of(lane.links.begin(), lane.links.end(), [&](const world::Link& link) {
-        return link.to() < town.lanes.size() && world::is_for_cars(town.lanes[link.to()]);
-    });
-}
-
 /// What happened, as it happens: printed lines, blockages, checks; a collision when it is over,
 /// under the time when it began.
 class Commentary {
@@ -191,7 +185,7 @@ class Commentary {
             stood != (stands_ns + step_ns_ - 1) / step_ns_)
             return;
         const world::LaneT& lane = town_->lanes[measured.lane()];
-        if (lane.length - measured.lane_s() < end && leads_nowhere(*town_, lane))
+        if (lane.length - measured.lane_s() < end && !world::leads_on(*town_, lane))
             tell(tick,
                  fmt::format("{} stands at the end of its road: {} leads nowhere",
                              crashes_.names().name_of(actor),

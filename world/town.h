@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,18 @@ std::optional<std::uint32_t> find_lane(const TownT& town, std::string_view name)
 /// Can cars use it: driving lanes, and the internal lanes that connect them?
 inline bool is_for_cars(const LaneT& lane) {
     return lane.kind == LaneKind::driving || lane.kind == LaneKind::internal;
+}
+
+/// Does a car find a lane behind it?
+inline bool leads_on(const TownT& town, const Link& link) {
+    return link.to() < town.lanes.size() && is_for_cars(town.lanes[link.to()]);
+}
+
+/// By any of its links?
+inline bool leads_on(const TownT& town, const LaneT& lane) {
+    return std::any_of(lane.links.begin(), lane.links.end(), [&](const Link& link) {
+        return leads_on(town, link);
+    });
 }
 
 /// Radius of the circle through three neighbouring centre-line points around s. [m]; large when

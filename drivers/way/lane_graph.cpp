@@ -15,10 +15,6 @@ using world::LaneKind;
 using world::LaneT;
 using world::Link;
 
-bool leads_somewhere(const world::TownT& town, const Link& link) {
-    return link.to() < town.lanes.size() && world::is_for_cars(town.lanes[link.to()]);
-}
-
 }  // namespace
 
 LaneGraph::LaneGraph(const world::TownT& town)
@@ -36,7 +32,7 @@ LaneGraph::LaneGraph(const world::TownT& town)
         if (lane.junction < incoming_.size())
             incoming_[lane.junction].push_back(i);
         for (const Link& link : lane.links)
-            if (leads_somewhere(town, link))
+            if (world::leads_on(town, link))
                 for (const std::uint32_t internal : inside(link))
                     exit_[internal] = link.to();
     }
@@ -45,7 +41,7 @@ LaneGraph::LaneGraph(const world::TownT& town)
 }
 
 Continuation LaneGraph::continuation(const Link& link) const {
-    if (!leads_somewhere(*town_, link))
+    if (!world::leads_on(*town_, link))
         return Continuation::dead_end;
     const Continuation behind = continuation_[link.to()];
     return link.turn() == world::Turn::around ? std::min(behind, Continuation::turning) : behind;
@@ -82,7 +78,7 @@ void LaneGraph::find_dead_ends() {
 std::uint32_t LaneGraph::only_way_on(std::uint32_t lane) const {
     std::uint32_t only = world::none;
     for (const Link& link : town_->lanes[lane].links) {
-        if (link.turn() == world::Turn::around || !leads_somewhere(*town_, link))
+        if (link.turn() == world::Turn::around || !world::leads_on(*town_, link))
             continue;
         if (only != world::none)
             return world::none;
@@ -129,7 +125,7 @@ std::vector<std::uint32_t> LaneGraph::choices(std::uint32_t lane) const {
     const Continuation best = straight_continuation(lane);
     std::vector<std::uint32_t> best_ones;
     for (std::uint32_t i = 0; i < links.size(); ++i)
-        if (leads_somewhere(*town_, links[i]) && continuation(links[i]) == best)
+        if (world::leads_on(*town_, links[i]) && continuation(links[i]) == best)
             best_ones.push_back(i);
     // To turn here is no better than to turn later, unless there is no later.
     const auto keep = [&](const auto& is_wanted) {

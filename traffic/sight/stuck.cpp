@@ -48,7 +48,7 @@ bool is_wedged(const Car& car, double step, std::uint64_t tick) {
 bool is_at_an_end(const Car& car, double step, const world::TownT& town) {
     constexpr double near = 15;  // [m]
     const world::LaneT& lane = town.lanes[car.lane];
-    return car.stuck_ticks * step > far_too_long_at_an_end && lane.links.empty() &&
+    return car.stuck_ticks * step > far_too_long_at_an_end && !world::leads_on(town, lane) &&
            lane.kind == world::LaneKind::driving && lane.sumo_length - car.lane_position < near;
 }
 
