@@ -117,8 +117,10 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     Parts& parts = *parts_;
     if (parts.fault)
         std::rethrow_exception(parts.fault);
-    if (!parts.next)
+    if (!parts.next) {
+        parts.side_thread.stay_awake(true);
         begin();
+    }
     const world::TickView last = parts.last.view();
     world::TickDraft& next = *parts.next;
 
@@ -237,6 +239,7 @@ void Kernel::begin_step() {
     if (parts.next || parts.fault)
         return;
     parts.checks = parts.scenario.checks();
+    parts.side_thread.stay_awake(false);  // drivers in other programs are about to think
     try {
         begin();
     } catch (...) {  // whoever asks for the step hears of it

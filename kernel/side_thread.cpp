@@ -64,10 +64,11 @@ void SideThread::run() {
         } else if (state_.compare_exchange_strong(state, State::taken)) {
             work();
             tell(State::done);
-            process::linger(1e-3, [this] {
-                const State now = state_.load(std::memory_order_relaxed);
-                return now != State::done && now != State::idle;
-            });
+            if (stays_awake_)
+                process::linger(1e-3, [this] {
+                    const State now = state_.load(std::memory_order_relaxed);
+                    return now != State::done && now != State::idle;
+                });
         }
     }
 }

@@ -24,6 +24,10 @@ class SideThread {
     /// did. 10 us more than the longer of the two, where the other one sleeps.
     void both(const std::function<void()>& here, const std::function<void()>& there);
 
+    /// Does the other thread stay awake? Not where programs beside this one need the processors as
+    /// much as it does.
+    void stay_awake(bool awake) { stays_awake_ = awake; }
+
     /// Does `there` in the other thread while this one goes on, until drop().
     void offer(std::function<void()> there);
 
@@ -46,6 +50,7 @@ class SideThread {
     void tell(State state);
 
     std::atomic<State> state_ = State::idle;
+    std::atomic<bool> stays_awake_ = true;
     const std::function<void()>* there_ = nullptr;
     std::function<void()> offered_;
     std::exception_ptr error_;
