@@ -174,7 +174,13 @@ TEST(Demand, WhoFindsNoGapAtTheEndOfHisLaneIsTakenOut) {
     car.stuck_ticks = minute / 2;
     EXPECT_FALSE(is_at_an_end(car, 0.05, town));
     car.stuck_ticks = minute;
-    town.lanes[1].links.emplace_back();
+    const auto leads_to = [&](std::uint32_t lane) {
+        town.lanes[1].links.assign(
+            1, {lane, world::none, 0, world::Turn::straight, false, std::uint16_t{0}});
+    };
+    leads_to(0);
+    EXPECT_TRUE(is_at_an_end(car, 0.05, town)) << "onto the sidewalk";
+    leads_to(3);
     EXPECT_FALSE(is_at_an_end(car, 0.05, town)) << "it leads on";
 }
 
