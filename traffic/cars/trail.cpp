@@ -11,6 +11,7 @@ namespace {
 
 constexpr double spacing = 0.25;          // [m] between points kept: finer is not visible
 constexpr std::size_t spent_points = 16;  // thrown away together
+constexpr double least_reach = 2.5;       // [m]
 
 }  // namespace
 
@@ -23,6 +24,7 @@ void Trail::start(const std::vector<Eigen::Vector3d>& from_rear_to_front, double
     at_ = 0;
     travelled_ = 0;
     distance_ = distance;
+    reach_ = std::max(distance, least_reach);
     points_digest_ = 0;
     front_ = from_rear_to_front.front();
     add_point();
@@ -45,7 +47,7 @@ void Trail::advance(const Eigen::Vector3d& front) {
     front_ = front;
     if (travelled_ - points_.back().travelled >= spacing)
         add_point();
-    const double wanted = travelled_ - distance_;
+    const double wanted = travelled_ - reach_;
     while (at_ + 1 < points_.size() && points_[at_ + 1].travelled <= wanted)
         ++at_;
     if (at_ >= spent_points) {
@@ -55,7 +57,10 @@ void Trail::advance(const Eigen::Vector3d& front) {
 }
 
 Eigen::Vector3d Trail::rear() const {
-    return between(at_, travelled_ - distance_);
+    const Eigen::Vector3d far = between(at_, travelled_ - reach_);
+    if (reach_ == distance_)
+        return far;
+    return front_ + (far - front_).normalized() * distance_;
 }
 
 Eigen::Vector3d Trail::behind(double distance) const {

@@ -7,7 +7,10 @@
 
 namespace reprise::traffic {
 
-/// Turns the way of a front bumper into poses: the rear axle follows where the front has been.
+/// Turns the way of a front bumper into poses: the rear axle follows where the front has been. A
+/// two-wheeler heads along the last 2.5 m of that way, with its rear axle behind its front: its own
+/// length would turn it by 11 degrees within a tick where lanes meet at an angle, its rider leans
+/// into a bend before that.
 /// SUMO gives the front's place only loosely tied to an angle (in a lane change its angle leaves
 /// the path by tens of degrees); this one is smooth on curves, bends, slopes and lane changes
 /// alike.
@@ -49,10 +52,11 @@ class Trail {
     };
 
     std::vector<Point> points_;  ///< oldest first
-    std::size_t at_ = 0;         ///< the rear axle lies at or after points_[at_]
+    std::size_t at_ = 0;         ///< reach_ lies at or after points_[at_]
     Eigen::Vector3d front_ = Eigen::Vector3d::Zero();
-    double travelled_ = 0;  ///< [m] by the bumper so far
-    double distance_ = 0;
+    double travelled_ = 0;             ///< [m] by the bumper so far
+    double distance_ = 0;              ///< [m] from bumper to rear axle
+    double reach_ = 0;                 ///< [m] behind the bumper, by its way: the body points there
     std::uint64_t points_digest_ = 0;  ///< of every point so far, in their order
 };
 
