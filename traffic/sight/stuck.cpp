@@ -21,7 +21,11 @@ constexpr double far_too_long_wedged = 50;  // [s] of standing
 // Beside a fast road nobody lets in who stands where his lane ends; an ego stood behind one.
 constexpr double far_too_long_at_an_end = 50;  // [s] of standing
 // Two who stand with a corner in each other, in a bend, and neither has a way out.
-constexpr double far_too_long_in_another = 6;  // [s] of standing of both
+constexpr double far_too_long_in_another = 12;  // [s] of standing of both together,
+constexpr double stands_in_another = 3;         // [s] of each
+// A bus in a bend and the queue beside it, before a wreck that waited for those behind the bus,
+// stood so for 200 s. Where lanes are narrow some do before a light, and would drive on.
+constexpr double far_too_long_in_oncoming = 60;  // [s] of standing of both
 
 /// With room at both ends. [m]
 BodyBox body_of(const Eigen::Vector2d& rear,
@@ -76,21 +80,30 @@ bool lies_in_one_who_stands(const Car& car,
                             const world::TownT& town) {
     constexpr std::uint32_t once_in = 20;  // ticks: who stands can wait for the answer
     constexpr double touching = 0.02;      // [m] less is rounding
-    const auto stands = [&](const Car& one) {
-        return one.origin == Origin::demand && one.lane != world::none &&
-               one.stuck_ticks * step > far_too_long_in_another;
-    };
+    constexpr double oncoming = -0.5;      // cosine
     const auto is_inside = [&](const Car& one) {
         return town.lanes[one.lane].kind == world::LaneKind::internal;
     };
-    if (car.stuck_ticks % once_in != 0 || !stands(car) || !is_inside(car))
+    if (car.stuck_ticks % once_in != 0 || car.lane == world::none)
+        return false;
+    const bool in_junction = is_inside(car);
+    const double least = in_junction ? stands_in_another : far_too_long_in_oncoming;
+    const auto stands = [&](const Car& one) {
+        return one.origin == Origin::demand && one.lane != world::none &&
+               one.stuck_ticks * step > least;
+    };
+    if (!stands(car))
         return false;
     const BodyBox own = body_of(car.rear.head<2>(), car.ahead, car.model);
     return std::any_of(cars.begin(), cars.end(), [&](const Car& other) {
-        const bool goes_first = is_inside(other) && std::pair(other.stuck_ticks, car.id) >
-                                                        std::pair(car.stuck_ticks, other.id);
-        return other.id != car.id && stands(other) && !goes_first &&
-               std::abs(other.rear.z() - car.rear.z()) < world::level_clearance &&
+        if (other.id == car.id || !stands(other) ||
+            (car.stuck_ticks + other.stuck_ticks) * step < far_too_long_in_another ||
+            (!in_junction && other.ahead.dot(car.ahead) > oncoming))
+            return false;
+        const bool goes_first =
+            (is_inside(other) || !in_junction) &&
+            std::pair(other.stuck_ticks, car.id) > std::pair(car.stuck_ticks, other.id);
+        return !goes_first && std::abs(other.rear.z() - car.rear.z()) < world::level_clearance &&
                depth(own, body_of(other.rear.head<2>(), other.ahead, other.model)) > touching;
     });
 }

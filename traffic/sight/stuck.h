@@ -26,8 +26,9 @@ bool is_at_an_end(const Car& car, double step, const world::TownT& town);
 /// which neither can get past the other?
 bool faces_one_who_stands(const Car& car, double step, const world::TickView& last);
 
-/// Has it stood in a junction with a corner in another one who stands? Of two such only who has
-/// stood longer, or the lower id. Looks in every 20th tick of its standing: at other times false.
+/// Has it stood in a junction with a corner in another one who stands, or for long on a road in one
+/// who comes towards it? Of two such only who has stood longer, or the lower id. Looks in every
+/// 20th tick of its standing: at other times false.
 bool lies_in_one_who_stands(const Car& car,
                             std::span<const Car> cars,
                             double step,
