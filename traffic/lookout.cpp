@@ -229,6 +229,7 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
         const KnownVehicle known(car.sumo, car.in_sumo);
+        car.boxed_in = car.boxed_in && car.speed == 0;
         if (car.pass && car.pass->joins)
             PullingOut::follow(car);
         else if (car.pass)

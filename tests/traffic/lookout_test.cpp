@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -250,6 +251,54 @@ TEST(Lookout, ABusDoesNotSwingOutPastWhatStandsCloseBeforeIt) {
     scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
     scene.watch(two_minutes);
     EXPECT_TRUE(scene.touched.empty());
+}
+
+/// Behind a lorry that had to brake hard and then had no room to pull out, a queue stood on a lane
+/// beside a free one until the lorry was taken out.
+TEST(Lookout, WhoStandsBehindOneWhoIsBoxedInPullsOut) {
+    const test::Loaded& town1 = own_town("town1");
+    const std::uint32_t road = lane(town1.town, "b1_l1_1");
+    Stage stage(town1, 100, 4);
+    const auto first_on_road = [&] {
+        for (const world::CarState& car : stage.draft().traffic.cars)
+            if (car.lane() == road && car.speed() > 5 && car.lane_s() > 40 && car.lane_s() < 100)
+                return car.id();
+        return 0U;
+    };
+    while (stage.tick() < 1000 && first_on_road() == 0)
+        stage.step();
+    const std::uint32_t boxed_in = first_on_road();
+    ASSERT_NE(boxed_in, 0U);
+    const world::CarState& car = *stage.car(boxed_in);
+    const auto speed = static_cast<double>(car.speed());
+    const world::LanePoint at = world::point_at(
+        town1.town.lanes[road], static_cast<double>(car.lane_s()) + speed * speed / 16 + 2);
+    stage.props = {{world::to_vec3(at.position),
+                    world::Quat(0, 0, 0, 1),
+                    {},
+                    {},
+                    obstacle,
+                    world::find_prop_model("cone").value(),
+                    0}};
+    std::map<std::uint32_t, int> stood;  // [ticks] behind it on its lane
+    std::set<std::uint32_t> passed;
+    for (int i = 0; i < 1800; ++i) {
+        stage.step();
+        ASSERT_NE(stage.car(boxed_in), nullptr);
+        for (const world::CarState& other : stage.draft().traffic.cars) {
+            if (other.id() == boxed_in)
+                continue;
+            if (other.lane() == road && other.speed() < 0.1F &&
+                other.lane_s() < stage.car(boxed_in)->lane_s())
+                ++stood[other.id()];
+            else if (other.lane() != world::none &&
+                     town1.town.lanes[other.lane()].edge == "b1_l1" &&
+                     other.lane_s() > stage.car(boxed_in)->lane_s() + 12 && stood[other.id()] > 60)
+                passed.insert(other.id());
+        }
+    }
+    EXPECT_LT(stage.car(boxed_in)->speed(), 0.1F) << "nothing is shown";
+    EXPECT_GE(passed.size(), 2U);
 }
 
 /// Its corner is a hand beyond the line between; there is room beside it all the same.

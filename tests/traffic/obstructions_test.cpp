@@ -113,7 +113,26 @@ TEST(Obstructions, WhoComesTowardsOneOnAPassLeavesHimTheWayThatHeStillNeeds) {
     car.pass = PassOrder{car.lane, 42, 5};
     const auto seen = seen_by_oncoming(town, car);
     ASSERT_FALSE(seen.empty());
-    EXPECT_NEAR(seen.front().gap, 12 + 10, 0.1);
+    const world::LaneT& oncoming = town.lanes[lane.opposite];
+    const double bumper = world::project(oncoming, car.trail.front()).s;
+    EXPECT_NEAR(seen.front().begin, bumper - (12 + 10), 2.5);
+}
+
+/// Who turned into the street just then came so near that the bus had no room to come back.
+TEST(Obstructions, WhoComesTowardsOneSeesThatItWillPassBeforeItIsOverTheLine) {
+    const world::TownT& town = test::own_town("town1").town;
+    const world::LaneT& lane = town.lanes[test::lane(town, "m1_b2_1")];
+    Car car = car_beside(town, 20, 0, 0);
+    EXPECT_TRUE(seen_by_oncoming(town, car).empty());
+    car.model = *world::find_vehicle_model("bus");
+    car.offset_order = OffsetOrder{{0, lane.width, 2.5, world::Shape::linear}, 0};
+    car.pass = PassOrder{car.lane, 42, 5};
+    const auto seen = seen_by_oncoming(town, car);
+    ASSERT_FALSE(seen.empty());
+    const world::LaneT& oncoming = town.lanes[lane.opposite];
+    const double bumper = world::project(oncoming, car.trail.front()).s;
+    EXPECT_NEAR(seen.front().begin, bumper - (22 + 10 + 6.9), 2.5) << "and for its tail";
+    EXPECT_FALSE(seen.front().lasts) << "nobody passes that";
 }
 
 TEST(Obstructions, ATailThatIsStillInTheOncomingLaneIsSeenThere) {

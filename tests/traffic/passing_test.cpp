@@ -69,29 +69,57 @@ Car car_on(const world::TownT& town, std::uint32_t id, double front, std::uint16
     return car;
 }
 
-/// Does who stands `gap` [m] behind a vehicle with mass, which has stood for long, go around it?
+/// Who stands `gap` [m] behind a vehicle with mass, which has stood for long; and a queue before
+/// it.
+struct Behind {
+    Behind(const world::TownT& town,
+           double gap,
+           const std::vector<double>& queue_ahead = {},
+           std::uint16_t model = 0)
+        : lanes(town),
+          obstructions(town, lanes, step),
+          passing(town, obstructions, step),
+          last(who_stands(town)) {
+        world::TickDraft draft;
+        cars.add(car_on(town, 1000000, rear_end - gap, model), "", 0, draft);
+        for (const double front : queue_ahead)
+            cars.add(
+                car_on(town, 1000000 + static_cast<std::uint32_t>(front), front), "", 0, draft);
+        for (int i = 0; i < 800; ++i)
+            obstructions.look(last.view(), cars.all());
+    }
+
+    static world::SealedTick who_stands(const world::TownT& town) {
+        const world::LaneT& lane = town.lanes[lane_of(town, "east_1")];
+        const world::VehicleModel& sedan = world::vehicle_models()[0];
+        const world::LanePoint at = world::point_at(lane, rear_end + sedan.rear_overhang);
+        return test::tick_with({test::vehicle_at(9, at.position.x(), at.position.y(), at.yaw)});
+    }
+
+    Car& car() { return cars[0]; }
+
+    bool begins() {
+        passing.begin(car(), cars, last.view(), 900);
+        return car().pass.has_value();
+    }
+
+    bool goes_aside() { return car().offset_order && car().offset_order->change.to != 0; }
+
+    static constexpr double rear_end = 50;  // [m] of who stands
+
+    const world::LaneMap lanes;
+    Obstructions obstructions;
+    Passing passing;
+    Cars cars;
+    world::SealedTick last;
+};
+
+/// Does it go around it?
 bool passes(const world::TownT& town,
             double gap,
             const std::vector<double>& queue_ahead = {},
             std::uint16_t model = 0) {
-    const world::LaneT& lane = town.lanes[lane_of(town, "east_1")];
-    const world::VehicleModel& sedan = world::vehicle_models()[0];
-    const double rear_end = 50;  // [m] of who stands
-    const world::LanePoint at = world::point_at(lane, rear_end + sedan.rear_overhang);
-    const world::SealedTick last =
-        test::tick_with({test::vehicle_at(9, at.position.x(), at.position.y(), at.yaw)});
-    Cars cars;
-    world::TickDraft draft;
-    cars.add(car_on(town, 1000000, rear_end - gap, model), "", 0, draft);
-    for (const double front : queue_ahead)
-        cars.add(car_on(town, 1000000 + static_cast<std::uint32_t>(front), front), "", 0, draft);
-    const world::LaneMap lanes(town);
-    Obstructions obstructions(town, lanes, step);
-    for (int i = 0; i < 800; ++i)
-        obstructions.look(last.view(), cars.all());
-    const Passing passing(town, obstructions, step);
-    passing.begin(cars[0], cars, last.view(), 900);
-    return cars[0].pass.has_value();
+    return Behind(town, gap, queue_ahead, model).begins();
 }
 
 /// At 2.4 m a corner swept over an ego's rear in Town07: it pulls out as steeply as it can.
@@ -112,6 +140,25 @@ TEST(Passing, LorriesAndBusesNeedMoreRoomThanCars) {
     EXPECT_TRUE(passes(town, 4.5, {}, lorry));
     EXPECT_FALSE(passes(town, 4.5, {}, bus));
     EXPECT_TRUE(passes(town, 6, {}, bus));
+}
+
+/// A bus, in its first tick slower than what counts as driving, gave up for having stood for long;
+/// and a few millimetres aside never began again.
+TEST(Passing, WhoHasWaitedForLongDrivesOnOnceItHasBegun) {
+    const world::TownT town = road_with_a_bend(1000);
+    Behind behind(town, 6, {}, *world::find_vehicle_model("bus"));
+    ASSERT_TRUE(behind.begins());
+    behind.car().offset = 0.003;
+    behind.car().speed = 0.06;
+    behind.car().standing_ticks = 1001;
+    behind.passing.follow(behind.car(), 901);
+    EXPECT_TRUE(behind.goes_aside());
+
+    behind.car().pass.reset();
+    behind.car().offset_order = OffsetOrder{{0.003, 0, 2.5, world::Shape::linear}, 900};
+    behind.car().speed = 0;
+    EXPECT_TRUE(behind.begins());
+    EXPECT_TRUE(behind.goes_aside());
 }
 
 /// Who has stood for long in a queue waits as everybody there does.

@@ -107,6 +107,7 @@ struct Car {
     std::uint64_t held_in = 0;                    ///< tick in which SUMO must hold its speed
 
     bool held_back = false;  ///< by what it sees on its way; see lookout.h
+    bool boxed_in = false;   ///< so close behind a thing that it cannot pull out; see pulling_out.h
     std::optional<PassOrder> pass;
 
     // Among others of SUMO's; see meetings.h and standoffs.h.

@@ -190,6 +190,8 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(std::span<const std::uint32_t>(car.blocked_by));
         if (car.leans)
             hasher.add(car.leans);
+        if (car.boxed_in)
+            hasher.add(car.boxed_in);
         if (car.wedged_until != 0)
             hasher.add(car.wedged_until);
         if (car.trajectory) {

@@ -137,8 +137,9 @@ void gather_footprints(const world::TickView& last,
         return passes || std::abs(car.offset) > far_aside ||
                std::abs(world::cross(car.ahead, car.slip)) > far_aside;
     };
-    for (const Car& car : cars)
-        if (car.origin == Origin::parked || car.sumo.empty() || is_aside(car))
+    for (const Car& car : cars) {
+        const std::size_t before = footprints.size();
+        if (car.origin == Origin::parked || car.sumo.empty() || car.boxed_in || is_aside(car))
             add_car(car.id,
                     car.model,
                     car.rear,
@@ -146,6 +147,9 @@ void gather_footprints(const world::TickView& last,
                     car.speed * car.ahead,
                     car.origin != Origin::parked,
                     footprints);
+        for (std::size_t i = before; i < footprints.size(); ++i)
+            footprints[i].boxed_in = car.boxed_in;
+    }
     add_walkers(last.walkers(), footprints);
     add_props(last.props(), footprints);
     add_doors(last, footprints);

@@ -24,8 +24,9 @@ struct Footprint {
     double half_width = 0;
     Eigen::Vector2d velocity;
     double clearance = 0;    ///< [m] that one who passes leaves beside it
-    double needs_ahead = 0;  ///< [m] of the oncoming lane, who passes something through it
+    bool is_needed = false;  ///< road that one who passes something will need: nothing stands there
     bool drives = false;     ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
+    bool boxed_in = false;   ///< a car of SUMO's that will not drive on
     bool is_afoot = false;   ///< somebody of the town's, who steps aside; no scenario's
     std::uint32_t id = 0;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "world/geometry2d.h"
+#include "world/models/catalogue.h"
 #include "world/units.h"
 
 namespace reprise::traffic {
@@ -179,6 +180,8 @@ void Obstructions::add(const Footprint& footprint) {
         if (std::abs(on.position.z() - place.z()) > world::level_clearance)
             continue;
         const Eigen::Vector2d ahead = world::ahead_of(on.yaw);
+        if (footprint.is_needed && footprint.direction.dot(ahead) > 0)
+            continue;
         const Eigen::Vector2d offset = footprint.centre - on.position.head<2>();
         const Eigen::Vector2d left = world::turned_left(ahead);
         const double s = at.s + offset.dot(ahead);
@@ -210,16 +213,16 @@ void Obstructions::add(const Footprint& footprint) {
         one.z = place.z();
         const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
         one.lasts = footprint.velocity.norm() < least_walk &&
-                    (!footprint.drives || askew || stood(footprint.id) > halts_at_most);
+                    (!footprint.drives || footprint.boxed_in || askew ||
+                     stood(footprint.id) > halts_at_most);
         one.spare = one.speed == 0 && footprint.velocity.norm() < least_walk
                         ? std::max(footprint.clearance - least_clearance, 0.0)
                         : 0;
         one.gap = gap_behind(footprint, one.lasts);
         if (footprint.drives && lane.length - one.begin < turning_room && is_dead_end(lane))
             one.gap = std::max(one.gap, behind_who_turns);
-        if (footprint.direction.dot(ahead) < 0)
-            one.gap = std::max(one.gap, footprint.needs_ahead);
         one.drives = footprint.drives;
+        one.boxed_in = footprint.boxed_in;
         one.id = footprint.id;
         all_.push_back(one);
     }
@@ -242,26 +245,43 @@ bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const 
     return false;
 }
 
-/// Who comes towards one who is in the oncoming lane lets him come back into his own.
-void Obstructions::tell_who_passes(std::span<const Car> cars) {
-    constexpr double to_come_back = 10;  // [m]
+/// Who comes towards one who passes something leaves him the road that he needs until he is back
+/// in his own lane; from when he begins, for who comes round a corner then.
+void Obstructions::add_needed_road(std::span<const Car> cars) {
+    constexpr double to_come_back = 10;  // [m] and what a longer car's tail needs
+    constexpr double car_length = 5;     // [m]
+    constexpr double piece = 2.5;        // [m]
     for (const Car& car : cars) {
-        if (!passes_or_comes_back(car) || (car.pass && car.pass->joins))
+        if (!passes_or_comes_back(car) || (car.pass && car.pass->joins) || car.lane == world::none)
             continue;
-        double left = 0;
-        if (car.pass)
-            left =
-                car.pass->end - world::project(town_->lanes[car.pass->lane], car.trail.front()).s;
-        for (Footprint& footprint : footprints_)
-            if (footprint.id == car.id)
-                footprint.needs_ahead = std::max(left, 0.0) + to_come_back;
+        const world::VehicleModel& model = world::vehicle_models()[car.model];
+        const world::LaneT& lane = town_->lanes[car.pass ? car.pass->lane : car.lane];
+        const double front = world::project(lane, car.trail.front()).s;
+        const double back = std::max(front, car.pass ? car.pass->end : 0.0) + to_come_back +
+                            std::max(model.length - car_length, 0.0);
+        const bool goes_aside = car.offset_order && car.offset_order->change.to != 0;
+        Footprint road;
+        road.half_length = piece / 2;
+        road.half_width = model.width / 2;
+        road.velocity.setZero();
+        road.drives = true;
+        road.is_needed = true;
+        road.id = car.id;
+        for (double s = front + piece / 2; s < std::min(back, lane.length); s += piece) {
+            const world::LanePoint at = world::point_at(lane, s);
+            road.direction = world::ahead_of(at.yaw);
+            road.centre =
+                at.position.head<2>() + (goes_aside ? car.offset_order->change.to : car.offset) *
+                                            world::turned_left(road.direction);
+            road.z = at.position.z();
+            add(road);
+        }
     }
 }
 
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
     count_halts(last.vehicles());
     gather_footprints(last, cars, footprints_);
-    tell_who_passes(cars);
     for (const Obstruction& one : all_)
         is_obstructed_[one.lane] = false;
     all_.clear();
@@ -269,6 +289,7 @@ void Obstructions::look(const world::TickView& last, std::span<const Car> cars) 
     next_off_.clear();
     for (const Footprint& footprint : footprints_)
         add(footprint);
+    add_needed_road(cars);
     std::stable_sort(next_off_.begin(), next_off_.end(), [](const Off& one, const Off& other) {
         return one.id < other.id;
     });

@@ -27,7 +27,8 @@ struct Obstruction {
     double gap = 0;      ///< [m] that one who stops behind it leaves
     double spare =
         0;  ///< [m] on both sides, of what is left beside it, that one who creeps needs not
-    bool drives = false;  ///< SUMO has a copy of it
+    bool drives = false;    ///< SUMO has a copy of it
+    bool boxed_in = false;  ///< a car of SUMO's
     std::uint32_t id = 0;
 
     /// [m] along the lane where the body begins that lies between two lines along it, each left of
@@ -106,7 +107,7 @@ class Obstructions {
 
     const Around& lanes_around(const Eigen::Vector3d& place, std::uint32_t id, double reach);
     void count_halts(std::span<const world::VehicleState> vehicles);
-    void tell_who_passes(std::span<const Car> cars);
+    void add_needed_road(std::span<const Car> cars);
     double stood(std::uint32_t id) const;
     double gap_behind(const Footprint& footprint, bool lasts) const;
     void add(const Footprint& footprint);

@@ -80,7 +80,8 @@ std::optional<double> Passing::end_of_row(const Car& car, double front, double a
         if (one.begin > end.value_or(front) + (end ? model.length + 8 : first_in_line))
             break;
         const bool leaves_room = aside > 0 ? one.left < aside - half : one.right > aside + half;
-        if (!one.lasts || !leaves_room)
+        // One of SUMO's would stay its leader in their lane for ever.
+        if (!one.lasts || one.boxed_in || !leaves_room)
             return std::nullopt;
         end = std::max(end.value_or(front), one.end);
     }
@@ -144,7 +145,9 @@ void Passing::begin(Car& car,
                     const Cars& cars,
                     const world::TickView& last,
                     std::uint64_t tick) const {
-    if (car.origin != Origin::demand || car.speed > 0.1 || car.offset_order ||
+    constexpr double beside = 0.3;  // [m] who is no further aside may begin again
+    if (car.origin != Origin::demand || car.speed > 0.1 ||
+        (car.offset_order && (car.offset_order->change.to != 0 || std::abs(car.offset) > beside)) ||
         static_cast<double>(car.standing_ticks) * step_ < pass_patience)
         return;
     const world::LaneT& lane = town_->lanes[car.lane];
@@ -195,11 +198,14 @@ double Passing::allowed_speed(const Car& car) {
 }
 
 void Passing::follow(Car& car, std::uint64_t tick) const {
-    constexpr double gives_up = 30;  // [s] of standing
+    constexpr double gives_up = 30;  // [s] of standing since it began
+    std::uint64_t stood = car.standing_ticks;
+    if (car.offset_order)
+        stood = std::min(stood, tick - car.offset_order->start);
     const bool comes_back =
         car.lane != car.pass->lane ||
         world::project(town_->lanes[car.lane], car.trail.front()).s > car.pass->end ||
-        (car.offset != 0 && static_cast<double>(car.standing_ticks) * step_ > gives_up);
+        (car.offset != 0 && static_cast<double>(stood) * step_ > gives_up);
     if (!comes_back)
         return;
     const bool is_back = car.offset_order ? car.offset_order->change.to == 0 : car.offset == 0;

@@ -67,8 +67,8 @@ bool PullingOut::stands_behind_a_thing(const Car& car, const Cars& cars) const {
         return false;
     const auto all = cars.all();
     return std::none_of(all.begin(), all.end(), [&](const Car& other) {
-        return other.lane == car.lane && other.origin != Origin::parked && other.id != car.id &&
-               other.lane_position > car.lane_position &&
+        return other.lane == car.lane && other.origin != Origin::parked && !other.boxed_in &&
+               other.id != car.id && other.lane_position > car.lane_position &&
                other.lane_position - world::vehicle_models()[other.model].length <
                    car.lane_position + nearest_thing;
     });
@@ -136,8 +136,8 @@ bool PullingOut::is_free(const Car& car,
     const double half = world::vehicle_models()[car.model].width / 2;
     const auto there = obstructions_->on(beside);
     return std::none_of(there.begin(), there.end(), [&](const Obstruction& one) {
-        return one.left > -half && one.right < half && one.begin < front + way_aside &&
-               one.end > front - length - needed_behind(one.speed);
+        return one.id != car.id && one.left > -half && one.right < half &&
+               one.begin < front + way_aside && one.end > front - length - needed_behind(one.speed);
     });
 }
 
@@ -157,8 +157,10 @@ bool PullingOut::swing_into(std::uint32_t lane,
     double pace = Passing::speed;
     if (touches(pace))
         pace = slow_pull_out;
-    if (pace < Passing::speed && touches(pace))
+    if (pace < Passing::speed && touches(pace)) {
+        car.boxed_in = true;
         return false;
+    }
     const world::LaneT& next = town_->lanes[lane];
     if (Vehicle::getLateralLanePosition(car.sumo) != 0) {
         end_change(car);

@@ -17,7 +17,8 @@ namespace reprise::traffic {
 ///         the while, and that others see a car that is aside (see footprints.h).
 /// GOES    who has stood for some seconds, first behind a thing that lasts, is put into the lane
 ///         beside in SUMO and shown where it was, and from there drives to the middle of that lane;
-///         not at all where a corner would touch something.
+///         not at all where a corner would touch something: then it is boxed in, and a thing like
+///         that before it to those behind.
 /// KEEPS   nothing beside the cars.
 class PullingOut {
   public:
