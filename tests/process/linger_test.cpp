@@ -1,6 +1,9 @@
 #include "process/linger.h"
 
+#include <atomic>
 #include <chrono>
+#include <sched.h>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -26,17 +29,43 @@ TEST(Lingering, EndsAfterItsTime) {
     EXPECT_EQ(looks, processors() > 1 ? 1 : 0);
 }
 
-/// Who looks for a millisecond has not been alone: to it that is a rival's turn.
-TEST(Lingering, EndsWhereSomebodyElseGotTheProcessor) {
-    int looks = 0;
-    linger(ages, [&] {
-        ++looks;
-        const auto begin = std::chrono::steady_clock::now();
-        while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(1)) {
+/// Keeps the calling thread, and those it starts, on the processor that it is on.
+class OnOneProcessor {
+  public:
+    OnOneProcessor() {
+        sched_getaffinity(0, sizeof(before_), &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(sched_getcpu(), &one);
+        sched_setaffinity(0, sizeof(one), &one);
+    }
+
+    ~OnOneProcessor() { sched_setaffinity(0, sizeof(before_), &before_); }
+
+    OnOneProcessor(const OnOneProcessor&) = delete;
+    OnOneProcessor& operator=(const OnOneProcessor&) = delete;
+
+  private:
+    cpu_set_t before_;
+};
+
+TEST(Lingering, EndsWhereSomebodyElseWantsTheProcessor) {
+    linger(0, [] { return true; });  // it asks for its processors once
+    const OnOneProcessor here;
+    std::atomic<bool> over = false;
+    std::thread rival([&] {
+        while (!over) {
         }
-        return false;
     });
-    EXPECT_EQ(looks, processors() > 1 ? 1 : 0);
+    const auto begin = std::chrono::steady_clock::now();
+    bool stayed = false;
+    linger(ages, [&] {
+        stayed = std::chrono::steady_clock::now() - begin > std::chrono::seconds(20);
+        return stayed;
+    });
+    over = true;
+    rival.join();
+    EXPECT_FALSE(stayed);
 }
 
 }  // namespace
