@@ -29,6 +29,7 @@ constexpr double ring_stands = 12;  // [s] of the others in that ring
 constexpr double at_its_edge = 1;   // [m] where one who waited to go in is no hindrance
 // But in a row before lights behind it: beside a vehicle with mass only who is first of it goes.
 constexpr double in_a_row = 100;  // [s] of standing, in case that the row is a ring
+constexpr double soonest = 1;     // [s] of standing, before which nobody is stuck
 
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
@@ -206,6 +207,8 @@ bool Demand::is_longest_in_a_ring(const Car& car, const Cars& cars) const {
 
 bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const {
     const double stood = car.stuck_ticks * step_;
+    if (stood < soonest)
+        return false;
     if ((stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
         (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
         waits_for_ever(car, step_) || is_at_an_end(car, step_, *town_) ||

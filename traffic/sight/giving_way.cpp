@@ -147,8 +147,13 @@ bool GivingWay::has_to_wait(const Car& car, const Comer& comer, const Conflict& 
 double GivingWay::allowed_speed(const Car& car) const {
     if (comers_.empty() || car.speed > turns_at)
         return world::infinity;
-    // Of most cars nobody comes to where they will be, wherever their way leads.
+    // Of most cars no junction is near, or nobody comes to where they will be, wherever their way
+    // leads.
     constexpr double more = 10;  // [m] than its way and its body
+    const world::LaneT& here = lines_->town().lanes[car.lane];
+    if (here.kind != world::LaneKind::internal &&
+        here.length * (1 - car.lane_position / here.sumo_length) > looked_at + more)
+        return world::infinity;
     const double far = looked_at + 2 * world::vehicle_models()[car.model].length + more;
     world::Box around;
     around.take(car.rear.head<2>(), far);
