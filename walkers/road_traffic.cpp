@@ -98,12 +98,16 @@ void RoadTraffic::add_approaches(std::uint32_t lane, double distance, Conflict& 
         for (const std::uint32_t onto : before_[on])
             add(onto, far + town_->lanes[onto].length);
     }
-    double tail = distance - town_->lanes[lane].length;
-    for (std::uint32_t on = lane; tail > -longest_tail && !behind_[on].empty();) {
-        on = behind_[on].front();
-        if (!add(on, tail))
-            break;
-        tail -= town_->lanes[on].length;
+    // Whose bumper is past the place may have his tail on it, whichever way he turns behind it.
+    std::vector<Conflict::Approach> tails{{lane, distance}};
+    for (std::size_t i = 0; i < tails.size(); ++i) {
+        const auto [on, far] = tails[i];
+        const double tail = far - town_->lanes[on].length;
+        if (tail <= -longest_tail)
+            continue;
+        for (const std::uint32_t onto : behind_[on])
+            if (add(onto, tail))
+                tails.push_back({onto, tail});
     }
 }
 

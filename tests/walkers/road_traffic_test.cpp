@@ -1,5 +1,8 @@
 #include "walkers/road_traffic.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/worlds.h"
@@ -73,6 +76,37 @@ TEST(RoadTraffic, FindsTheLanesThatAWayCrosses) {
     EXPECT_NEAR(crossing.conflicts[0].at, 1.75, 1e-6);
     EXPECT_NEAR(crossing.conflicts[1].at, 5.25, 1e-6);
     EXPECT_NEAR(crossing.conflicts[0].approaches[0].distance, 200, 1e-6);
+}
+
+/// Of the ways behind a crossing only the first was looked at: one ran into the flank of a bus that
+/// took the second.
+TEST(RoadTraffic, SeesATailOnTheWayWhereverTheCarTurnsBehindIt) {
+    world::TownT town = test::straight_road(200);
+    const auto first_behind = static_cast<std::uint32_t>(town.lanes.size());
+    for (const double y : {10.0, -1.75, -10.0}) {
+        world::LaneT lane = town.lanes[1];
+        lane.kind = world::LaneKind::internal;
+        lane.centre = {world::Vec3(200, -1.75, 0), world::Vec3(220, y, 0)};
+        lane.length = std::hypot(20, y + 1.75);
+        town.lanes.push_back(lane);
+        town.lanes[1].links.emplace_back(static_cast<std::uint32_t>(town.lanes.size() - 1),
+                                         world::none,
+                                         0,
+                                         world::Turn::straight,
+                                         false,
+                                         std::uint16_t{0});
+    }
+    const world::LaneMap lanes(town);
+    const RoadTraffic traffic(town, lanes);
+    const std::vector<Conflict> conflicts = traffic.conflicts({195, -3.5, 0}, {195, 0, 0});
+    ASSERT_EQ(conflicts.size(), 1U);
+    for (std::uint32_t lane = first_behind; lane < town.lanes.size(); ++lane) {
+        const auto& seen = conflicts[0].approaches;
+        const auto at = std::find_if(
+            seen.begin(), seen.end(), [&](const auto& one) { return one.lane == lane; });
+        ASSERT_NE(at, seen.end()) << lane - first_behind;
+        EXPECT_NEAR(at->distance, -5, 1e-9);
+    }
 }
 
 TEST(RoadTraffic, LetsNobodyStepInFrontOfACar) {
