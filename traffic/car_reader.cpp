@@ -221,8 +221,15 @@ void CarReader::move_body(Car& car) const {
     car.trail.advance(shown);
     car.rear = rolled(car, car.trail.rear());
     const Eigen::Vector3d body = car.trail.front() - car.rear;
-    car.turn_to(std::atan2(body.y(), body.x()));
+    car.turn_to(turned(car.yaw, std::atan2(body.y(), body.x()), step_));
     car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
+}
+
+double CarReader::turned(double yaw, double wanted, double step) {
+    constexpr double fastest = 3.1;  // [rad/s] 9 degrees in a tick
+    const double most = fastest * step;
+    const double turn = world::wrap_angle(wanted - yaw);
+    return std::abs(turn) <= most ? wanted : world::wrap_angle(yaw + std::copysign(most, turn));
 }
 
 /// The rear axle follows the bumper's way only as far as wheels roll: on the tightest bends, of

@@ -26,6 +26,10 @@ class CarReader {
     /// next.traffic.cars and their looks, on the record's grid.
     void write(const Cars& cars, const world::TickView& last, world::TickDraft& next) const;
 
+    /// [rad] that a body at `yaw` shows a tick later, whose bumper lies in the direction `wanted`:
+    /// it turns there not at once where a lane turns back on the spot, as some maps draw them.
+    static double turned(double yaw, double wanted, double step);
+
   private:
     /// What is asked of a lane in every tick, side by side.
     struct Measures {

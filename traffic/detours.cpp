@@ -69,8 +69,10 @@ bool Detours::is_shut(const Car& car, const std::vector<double>& room) const {
 
 /// Onto one of the other roads that its lane leads to and that have room.
 void Detours::turn_off(Car& car, const std::vector<double>& room) const {
-    std::vector<std::uint32_t> ways =
-        graph_->ways_on(car.lane, model_class(car.model), /*keeps_lane=*/true);
+    std::vector<std::uint32_t> ways = graph_->ways_on(car.lane,
+                                                      model_class(car.model),
+                                                      /*keeps_lane=*/true,
+                                                      world::vehicle_models()[car.model].length);
     std::erase_if(ways, [&](std::uint32_t way) {
         return graph_->edge_of(way) == car.route[1] || room[way] < needed(car);
     });

@@ -55,7 +55,8 @@ void Insertion::insert(Car& car, const InsertionPoint& point, const std::string&
     car.trail.start(way_to(lane, point.s, origin_to_front(car.model)), origin_to_front(car.model));
     car.rear = car.trail.rear();
     car.sumo_front = car.trail.front();
-    car.turn_to(world::point_at(lane, point.s).yaw);
+    const Eigen::Vector3d body = car.trail.front() - car.rear;
+    car.turn_to(std::atan2(body.y(), body.x()));
 }
 
 }  // namespace reprise::traffic

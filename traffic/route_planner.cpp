@@ -3,6 +3,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
+#include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 #include "world/random.h"
 
@@ -16,6 +17,11 @@ constexpr std::size_t many_edges = 8;  // more than these are never a short plan
 /// A scripted car may go wherever a passenger car may, whatever its model.
 world::ClassSet classes_of(const Car& car) {
     return car.origin == Origin::demand ? model_class(car.model) : world::class_bit("passenger");
+}
+
+/// [m] of who plans by it: a scripted car turns around wherever there is no other way.
+double length_of(const Car& car) {
+    return car.origin == Origin::demand ? world::vehicle_models()[car.model].length : 0;
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ void RoutePlanner::extend(Car& car) const {
     double planned = 0;
     while (planned < length) {
         const std::vector<std::uint32_t> ways =
-            graph_->ways_on(car.last_lane, classes, car.keeps_lane);
+            graph_->ways_on(car.last_lane, classes, car.keeps_lane, length_of(car));
         car.dead_end = ways.empty();
         if (car.dead_end)
             return;

@@ -11,6 +11,7 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "traffic/car_reader.h"
 #include "traffic/sumo.h"
 #include "world/check.h"
 #include "world/frames.h"
@@ -266,6 +267,24 @@ TEST(Background, LeavesTheScenariosPlacesFree) {
                     << EnumNameDriver(command.driver) << (command.has_pose ? " by its pose" : "");
         }
     }
+}
+
+/// As some maps draw a way through a junction; a car turned by 25 degrees within a tick there.
+TEST(CarReader, NobodyTurnsOnTheSpotWhereALaneTurnsBack) {
+    constexpr double step = 0.05;
+    constexpr double degree = std::numbers::pi / 180;
+    EXPECT_DOUBLE_EQ(CarReader::turned(1, 1.1, step), 1.1);
+    double yaw = 170 * degree;
+    int ticks = 0;
+    for (const double wanted = -30 * degree; yaw != wanted && ticks < 100; ++ticks) {
+        const double next = CarReader::turned(yaw, wanted, step);
+        const double turn = world::wrap_angle(next - yaw);
+        EXPECT_GT(turn, 0) << "the shorter way";
+        EXPECT_LT(turn, 9 * degree);
+        EXPECT_EQ(next, world::wrap_angle(next));
+        yaw = next;
+    }
+    EXPECT_EQ(ticks, 19);
 }
 
 }  // namespace

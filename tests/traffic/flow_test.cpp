@@ -105,7 +105,7 @@ TEST(Flow, WhoIsStuckInAJunctionIsTakenOutInTheEndWhoeverIsBeside) {
         const world::LaneT& way = lanes[test::lane(town2.town, blocked)];
         const world::LanePoint end = world::point_at(way, way.length);
         const auto ego = test::vehicle_at(2, end.position.x(), end.position.y(), end.yaw);
-        Stage stage(town2, 60, 7);
+        Stage stage(town2, 60, 8);
         std::map<std::uint32_t, int> halted;
         int longest = 0;
         for (int tick = 0; tick < 8 * minute; ++tick)

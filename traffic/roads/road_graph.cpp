@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "world/geometry2d.h"
 #include "world/models/vehicle_classes.h"
 #include "world/tick.h"
 
@@ -77,14 +78,25 @@ bool RoadGraph::forks(std::uint32_t lane) const {
     return false;
 }
 
+/// To turn around from one lane into the other? A bus would sweep over all that is beside the road.
+bool RoadGraph::is_too_narrow(std::uint32_t from, std::uint32_t to, double length) const {
+    constexpr double longest = 7;  // [m] that turn anywhere
+    constexpr double wide = 10;    // [m] between the two lanes
+    const Eigen::Vector2d end = world::in_plan(town_->lanes[from].centre.back());
+    const Eigen::Vector2d start = world::in_plan(town_->lanes[to].centre.front());
+    return length > longest && (start - end).norm() < wide;
+}
+
 std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane,
                                               world::ClassSet car,
-                                              bool keeps_lane) const {
+                                              bool keeps_lane,
+                                              double length) const {
     auto ways = [&](std::uint32_t from, bool around) {
         std::vector<std::uint32_t> found;
         for (const world::Link& link : town_->lanes[from].links)
             if ((link.turn() == world::Turn::around) == around && may_use(link.to(), car) &&
-                town_->lanes[link.to()].kind == LaneKind::driving)
+                town_->lanes[link.to()].kind == LaneKind::driving &&
+                !(around && is_too_narrow(from, link.to(), length)))
                 found.push_back(link.to());
         return found;
     };

@@ -41,11 +41,13 @@ class RoadGraph {
     }
 
     /// The lanes that a car of this class can go to from the end of `lane`, without a lane change
-    /// where possible, or without one at all; turning around is the last resort. Ascending; empty
-    /// at a dead end.
+    /// where possible, or without one at all; turning around is the last resort, and none for a
+    /// lorry or a bus, by its `length` [m], where the street is narrow. Ascending; empty at a dead
+    /// end.
     std::vector<std::uint32_t> ways_on(std::uint32_t lane,
                                        world::ClassSet car,
-                                       bool keeps_lane) const;
+                                       bool keeps_lane,
+                                       double length) const;
 
     /// Does a link of this driving lane lead to that edge?
     bool leads_to(std::uint32_t lane, std::uint32_t edge) const;
@@ -60,6 +62,7 @@ class RoadGraph {
     std::vector<std::string> names(const std::vector<std::uint32_t>& edges) const;
 
   private:
+    bool is_too_narrow(std::uint32_t from, std::uint32_t to, double length) const;
     const world::TownT* town_;
     std::vector<world::ClassSet> classes_;
     std::vector<Edge> edges_;  ///< sorted by name

@@ -65,9 +65,16 @@ bool PullingOut::stands_behind_a_thing(const Car& car, const Cars& cars) const {
     };
     if (!is_first_on(car.lane) && !is_first_on(own.left) && !is_first_on(own.right))
         return false;
+    // One who was found to be boxed in just now is no thing to be passed yet: see footprints.h.
+    const auto here = obstructions_->on(car.lane);
+    const auto is_a_thing = [&](const Car& other) {
+        return std::any_of(here.begin(), here.end(), [&](const Obstruction& one) {
+            return one.id == other.id && one.boxed_in;
+        });
+    };
     const auto all = cars.all();
     return std::none_of(all.begin(), all.end(), [&](const Car& other) {
-        return other.lane == car.lane && other.origin != Origin::parked && !other.boxed_in &&
+        return other.lane == car.lane && other.origin != Origin::parked && !is_a_thing(other) &&
                other.id != car.id && other.lane_position > car.lane_position &&
                other.lane_position - world::vehicle_models()[other.model].length <
                    car.lane_position + nearest_thing;

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/towns.h"
+#include "tests/support/worlds.h"
 #include "traffic/route_planner.h"
+#include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
@@ -62,6 +64,32 @@ TEST(RoadGraph, ShortestWaysAreThoseOfFloydAndWarshall) {
             }
             EXPECT_NEAR(length, cost[i][j], 1e-6);
         }
+}
+
+/// A bus that turned around at the end of a street of 3.2 m lanes pressed a walker against a hedge
+/// for 100 s.
+TEST(RoutePlanner, BusesOfTheTownTurnAroundNowhereNarrow) {
+    TownT town = test::straight_road(200);
+    const std::uint32_t there = lane(town, "east_1");
+    const std::uint32_t back = lane(town, "west_1");
+    town.lanes[there].links.emplace_back(
+        back, world::none, 0, world::Turn::around, false, std::uint16_t{0});
+    const auto leaves = [&](const char* model, Origin origin) {
+        const RoadGraph graph = graph_of(town);
+        Car car;
+        car.id = 1'000'003;
+        car.origin = origin;
+        car.model = *world::find_vehicle_model(model);
+        RoutePlanner(graph, 7).start(there, car);
+        return car.route.size() == 1 && car.dead_end;
+    };
+    EXPECT_TRUE(leaves("bus", Origin::demand));
+    EXPECT_TRUE(leaves("lorry", Origin::demand));
+    EXPECT_FALSE(leaves("sedan", Origin::demand));
+    EXPECT_FALSE(leaves("bus", Origin::scripted)) << "by a scenario's word";
+    for (world::Vec3& point : town.lanes[back].centre)
+        point.mutate_y(point.y() + 10);
+    EXPECT_FALSE(leaves("bus", Origin::demand)) << "round a wide green";
 }
 
 TEST(RoutePlanner, RoutesFollowConnections) {
