@@ -104,6 +104,16 @@ std::vector<Obstruction> seen_by_oncoming(const world::TownT& town, const Car& c
     return {all.begin(), all.end()};
 }
 
+/// [m] before its bumper that who comes towards it finds its lane taken.
+double taken_ahead(const world::TownT& town, const Car& car) {
+    const auto seen = seen_by_oncoming(town, car);
+    if (seen.empty())
+        return 0;
+    EXPECT_FALSE(seen.front().lasts) << "nobody passes that";
+    const world::LaneT& oncoming = town.lanes[town.lanes[car.lane].opposite];
+    return world::project(oncoming, car.trail.front()).s - seen.front().begin;
+}
+
 TEST(Obstructions, WhoComesTowardsOneOnAPassLeavesHimTheWayThatHeStillNeeds) {
     const world::TownT& town = test::own_town("town1").town;
     const world::LaneT& lane = town.lanes[test::lane(town, "m1_b2_1")];
@@ -111,11 +121,7 @@ TEST(Obstructions, WhoComesTowardsOneOnAPassLeavesHimTheWayThatHeStillNeeds) {
     car.offset = lane.width;
     car.offset_order = OffsetOrder{{0, lane.width, 2.5, world::Shape::linear}, 0};
     car.pass = PassOrder{car.lane, 42, 5};
-    const auto seen = seen_by_oncoming(town, car);
-    ASSERT_FALSE(seen.empty());
-    const world::LaneT& oncoming = town.lanes[lane.opposite];
-    const double bumper = world::project(oncoming, car.trail.front()).s;
-    EXPECT_NEAR(seen.front().begin, bumper - (12 + 10), 2.5);
+    EXPECT_NEAR(taken_ahead(town, car), 12 + 10, 2.5);
 }
 
 /// Who turned into the street just then came so near that the bus had no room to come back.
@@ -127,12 +133,7 @@ TEST(Obstructions, WhoComesTowardsOneSeesThatItWillPassBeforeItIsOverTheLine) {
     car.model = *world::find_vehicle_model("bus");
     car.offset_order = OffsetOrder{{0, lane.width, 2.5, world::Shape::linear}, 0};
     car.pass = PassOrder{car.lane, 42, 5};
-    const auto seen = seen_by_oncoming(town, car);
-    ASSERT_FALSE(seen.empty());
-    const world::LaneT& oncoming = town.lanes[lane.opposite];
-    const double bumper = world::project(oncoming, car.trail.front()).s;
-    EXPECT_NEAR(seen.front().begin, bumper - (22 + 10 + 6.9), 2.5) << "and for its tail";
-    EXPECT_FALSE(seen.front().lasts) << "nobody passes that";
+    EXPECT_NEAR(taken_ahead(town, car), 22 + 10 + 6.9, 2.5) << "and for its tail";
 }
 
 TEST(Obstructions, ATailThatIsStillInTheOncomingLaneIsSeenThere) {
