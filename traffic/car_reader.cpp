@@ -220,7 +220,8 @@ void CarReader::move_body(Car& car) const {
         shown.head<2>() += car.offset * aside_of(car);
     car.trail.advance(shown);
     car.rear = rolled(car, car.trail.rear());
-    const Eigen::Vector3d body = car.trail.front() - car.rear;
+    const bool is_short = world::vehicle_models()[car.model].length < Trail::least_reach;
+    const Eigen::Vector3d body = car.trail.front() - (is_short ? car.trail.heads_from() : car.rear);
     car.turn_to(turned(car.yaw, std::atan2(body.y(), body.x()), step_));
     car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
 }

@@ -486,5 +486,37 @@ TEST(Meetings, NobodyDrivesIntoWhoStandsBehindAFork) {
     EXPECT_EQ(looked_at, 5);
 }
 
+/// Round a hairpin of a made-up map two of one row drove 1.6 m into each other, head on: who is
+/// ahead on the way is looked after by SUMO, but not where that way comes back.
+TEST(Meetings, WhoComesBackRoundAHairpinIsLetPastByThoseBehindHim) {
+    TownT town = own_town("town1").town;
+    const auto [lane, via] = entries_of(town).front();
+    const world::LanePoint end = world::point_at(town.lanes[lane], town.lanes[lane].length);
+    const auto place = [&](double ahead, double left) {
+        const Eigen::Vector2d there = end.position.head<2>() + ahead * world::ahead_of(end.yaw) +
+                                      left * world::left_of(end.yaw);
+        return world::Vec3(there.x(), there.y(), end.position.z());
+    };
+    world::LaneT& hairpin = town.lanes[via];
+    hairpin.centre = {place(0, 0), place(3, 0.2), place(3, 0.9), place(-17, 1)};
+    hairpin.length = hairpin.sumo_length = 23.7;
+    const RoadGraph graph = graph_for(town);
+    Cars cars;
+    world::TickDraft draft;
+    Car ahead = car_before(town, graph, 7, "sedan", lane, via, 0, 3);
+    ahead.lane = via;
+    for (ahead.lane_position = 0; ahead.lane_position < 8; ahead.lane_position += 0.1)
+        ahead.trail.advance(world::point_at(hairpin, ahead.lane_position).position);
+    ahead.rear = ahead.trail.rear();
+    const Eigen::Vector2d body = (ahead.trail.front() - ahead.rear).head<2>();
+    ahead.turn_to(std::atan2(body.y(), body.x()));
+    cars.add(std::move(ahead), "", 0, draft);
+    cars.add(car_before(town, graph, 8, "sedan", lane, via, 8, 3), "", 0, draft);
+    const RightOfWay right_of_way(town, {});
+    Meetings meetings(town, graph, right_of_way, meeting_step);
+    meetings.look(cars, 2);
+    EXPECT_LT(meetings.allowed_speed(1), 3);
+}
+
 }  // namespace
 }  // namespace reprise::traffic

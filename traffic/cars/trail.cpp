@@ -11,7 +11,6 @@ namespace {
 
 constexpr double spacing = 0.25;          // [m] between points kept: finer is not visible
 constexpr std::size_t spent_points = 16;  // thrown away together
-constexpr double least_reach = 2.5;       // [m]
 
 }  // namespace
 
@@ -57,10 +56,11 @@ void Trail::advance(const Eigen::Vector3d& front) {
 }
 
 Eigen::Vector3d Trail::rear() const {
-    const Eigen::Vector3d far = between(at_, travelled_ - reach_);
-    if (reach_ == distance_)
-        return far;
-    return front_ + (far - front_).normalized() * distance_;
+    return reach_ == distance_ ? heads_from() : behind(distance_);
+}
+
+Eigen::Vector3d Trail::heads_from() const {
+    return between(at_, travelled_ - reach_);
 }
 
 Eigen::Vector3d Trail::behind(double distance) const {

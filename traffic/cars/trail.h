@@ -8,14 +8,15 @@
 namespace reprise::traffic {
 
 /// Turns the way of a front bumper into poses: the rear axle follows where the front has been. A
-/// two-wheeler heads along the last 2.5 m of that way, with its rear axle behind its front: its own
-/// length would turn it by 11 degrees within a tick where lanes meet at an angle, its rider leans
-/// into a bend before that.
+/// two-wheeler heads along the last 2.5 m of that way: its own length would turn it by 11 degrees
+/// within a tick where lanes meet at an angle, its rider leans into a bend before that.
 /// SUMO gives the front's place only loosely tied to an angle (in a lane change its angle leaves
 /// the path by tens of degrees); this one is smooth on curves, bends, slopes and lane changes
 /// alike.
 class Trail {
   public:
+    static constexpr double least_reach = 2.5;  ///< [m] of its way that a body points along
+
     /// As if the car had come straight: `front` is the bumper, `behind` a unit vector to the rear,
     /// `distance` [m] from bumper to rear axle.
     void start(const Eigen::Vector3d& front, const Eigen::Vector3d& behind, double distance);
@@ -28,6 +29,9 @@ class Trail {
 
     /// Where the rear axle is, on the ground.
     Eigen::Vector3d rear() const;
+
+    /// From where the body points to its bumper: the rear axle's place, or further back on the way.
+    Eigen::Vector3d heads_from() const;
 
     /// Where the bumper was when it had `distance` [m] less behind it; no further back than the
     /// rear axle is. O(log points).

@@ -244,6 +244,11 @@ bool Meetings::is_all_on_its_lane(const Driver& driver) {
     return driver.car->lane_position > 2 * driver.half_length;
 }
 
+/// Round a hairpin who drives ahead comes towards those behind him, perhaps onto their lane.
+bool Meetings::comes_back(const Driver& one, const Driver& other) {
+    return one.car->ahead.dot(other.car->ahead) < 0;
+}
+
 /// In a bend a long one lies over the oncoming lane, often for as long as a queue stands there. Who
 /// came up to its body would soon be in its way, too, and neither would ever get past.
 bool Meetings::lies_in_way_of(const Driver& driver, const Driver& comer) const {
@@ -269,10 +274,12 @@ void Meetings::meet(Driver& one, Driver& other) {
     const bool other_follows = follows(other, one);
     if (one_follows && other_follows)
         return;
-    if (one_follows && is_all_on_its_lane(other))
-        return keep_behind(one, other);
-    if (other_follows && is_all_on_its_lane(one))
-        return keep_behind(other, one);
+    if (!comes_back(one, other)) {
+        if (one_follows && is_all_on_its_lane(other))
+            return keep_behind(one, other);
+        if (other_follows && is_all_on_its_lane(one))
+            return keep_behind(other, one);
+    }
     if (PushingPast::has_begun(one, other, tick_))
         return let_past(other, one);
     if (PushingPast::has_begun(other, one, tick_))

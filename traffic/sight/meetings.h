@@ -103,6 +103,7 @@ class Meetings {
     bool first_waits(const Driver& one, const Driver& other) const;
     bool lies_in_way_of(const Driver& driver, const Driver& comer) const;
     static bool follows(const Driver& driver, const Driver& leader);
+    static bool comes_back(const Driver& one, const Driver& other);
     static bool is_all_on_its_lane(const Driver& driver);
     static Stop stop_at(const Driver& driver,
                         const Foresight::Entry& entry,
