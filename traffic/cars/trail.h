@@ -30,7 +30,8 @@ class Trail {
     /// Where the rear axle is, on the ground.
     Eigen::Vector3d rear() const;
 
-    /// From where the body points to its bumper: the rear axle's place, or further back on the way.
+    /// From where the body points to its bumper: the rear axle's place; further back on the way
+    /// where that is nearer than least_reach.
     Eigen::Vector3d heads_from() const;
 
     /// Where the bumper was when it had `distance` [m] less behind it; no further back than the

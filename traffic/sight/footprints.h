@@ -32,9 +32,9 @@ struct Footprint {
 };
 
 /// All in the last tick that SUMO does not know, or only as a point in the middle of a lane:
-/// walkers, props, open doors, vehicles with mass, and those of `cars` that SUMO does not drive or
-/// that are aside of their lane. Long ones in pieces, so that each is short against the bends of a
-/// road. In the order of their kinds, and of their ids.
+/// walkers, props, open doors, vehicles with mass, and those of `cars` that SUMO does not drive,
+/// that are aside of their lane or that are boxed in. Long ones in pieces, so that each is short
+/// against the bends of a road. In the order of their kinds, and of their ids.
 void gather_footprints(const world::TickView& last,
                        std::span<const Car> cars,
                        std::vector<Footprint>& footprints);
